@@ -1,0 +1,20 @@
+// A CAN or CAN FD data frame.
+#ifndef SEMTRACK_CAN_FRAME_HPP
+#define SEMTRACK_CAN_FRAME_HPP
+
+#include <array>
+#include <cstdint>
+
+namespace semtrack {
+
+struct CanFrame {
+    std::uint32_t id{0};               ///< 11 bits, or 29 when `extended`
+    bool extended{false};
+    bool fd{false};                    ///< CAN FD with bit-rate switch
+    std::uint8_t length{0};            ///< bytes: 0..8 classic; 0..8, 12, 16, 20, 24, 32, 48, 64 FD
+    std::array<std::uint8_t, 64> data{};
+};
+
+}  // namespace semtrack
+
+#endif

@@ -1,0 +1,68 @@
+#include "estimate/factor/motion.hpp"
+
+#include <cmath>
+
+#include "math/trig.hpp"
+#include "model/bicycle.hpp"
+
+namespace semtrack {
+
+namespace {
+
+constexpr double kShortestStep_s = 1e-3;
+
+ObjectState straight_step(const ObjectState& x, double dt_s, bool derivatives, Mat6& J) {
+    const SinCos h = sin_cos(x.theta);
+    ObjectState next = x;
+    next.p += Vec3(h.cos, h.sin, 0.0) * (x.v * dt_s);
+    if (derivatives) {
+        J = Mat6::Identity();
+        J(0, 3) = -x.v * dt_s * h.sin;
+        J(1, 3) = x.v * dt_s * h.cos;
+        J(0, 4) = dt_s * h.cos;
+        J(1, 4) = dt_s * h.sin;
+    }
+    return next;
+}
+
+ObjectState stepped(const ObjectState& x, double dt_s, const MotionModelSpec& spec, bool derivatives, Mat6& J) {
+    if (spec.standing) {
+        ObjectState next = x;
+        next.v = 0.0;
+        if (derivatives) {
+            J = Mat6::Identity();
+            J(4, 4) = 0.0;
+        }
+        return next;
+    }
+    if (spec.model == MotionModel::kPedestrian) {
+        return straight_step(x, dt_s, derivatives, J);
+    }
+    if (derivatives) {
+        J = bicycle_jacobian(x, spec.wheelbase_m, dt_s);
+    }
+    return bicycle_step(x, spec.wheelbase_m, dt_s);
+}
+
+}  // namespace
+
+void motion_residual(const ObjectState& before, const ObjectState& after, double dt_s, const MotionModelSpec& spec,
+                     bool derivatives, Vec6& r, Mat6& J_before, Mat6& J_after) {
+    const ObjectState next = stepped(before, dt_s, spec, derivatives, J_before);
+    const double root_dt = std::sqrt(dt_s > kShortestStep_s ? dt_s : kShortestStep_s);
+    const MotionNoise& n = spec.noise;
+    const double plane = 1.0 / (n.position * root_dt);
+    Vec6 weight;
+    weight << plane, plane, 1.0 / (n.height * root_dt), 1.0 / (n.heading * root_dt), 1.0 / (n.speed * root_dt),
+        1.0 / (n.steering * root_dt);
+    Vec6 d;
+    d << after.p - next.p, wrap_angle(after.theta - next.theta), after.v - next.v, after.delta - next.delta;
+    r = weight.cwiseProduct(d);
+    if (derivatives) {
+        const Mat6 W = weight.asDiagonal();
+        J_before = -(W * J_before);
+        J_after = W;
+    }
+}
+
+}  // namespace semtrack

@@ -1,0 +1,93 @@
+// The sliding window of one object: its states, what was measured of it, its size and its landmarks.
+//
+// States live in L, the local-level frame: W turned so that z is the road's normal near the vehicle (W's own z is
+// wrong after a slope). L has W's origin; R_l_w is renewed every cycle and the window is re-expressed (relevel).
+#ifndef SEMTRACK_MODEL_OBJECT_WINDOW_HPP
+#define SEMTRACK_MODEL_OBJECT_WINDOW_HPP
+
+#include <array>
+#include <cstdint>
+
+#include "math/eigen.hpp"
+#include "math/pose.hpp"
+#include "semtrack/capacity.hpp"
+#include "semtrack/static_vector.hpp"
+#include "semtrack/types.hpp"
+
+namespace semtrack {
+
+/// Paper Sect. 5, x_ok = {p, theta, v, delta}; the size d is the window's.
+struct ObjectState {
+    Vec3 p{Vec3::Zero()};  ///< box centre in L, m
+    double theta{0};       ///< heading about L's z, rad
+    double v{0};           ///< speed along the heading; negative: reversing; m/s
+    double delta{0};       ///< steering angle of the bicycle model, rad
+
+    [[nodiscard]] Pose T_l_o() const;
+};
+
+/// s_k^t: the 2D box of one frame, in pixels of the detection camera.
+struct BoxMeasurement {
+    bool valid{false};
+    Box2d box{};
+    std::array<double, 4> sigma_px{};  ///< per edge (left, right, top, bottom); 0: the edge says nothing (border)
+    Viewpoint viewpoint{};
+    double score{0};
+};
+
+/// z_k^t of one feature: processed pair, px.
+struct FeatureObservation {
+    bool valid{false};
+    bool stereo{false};
+    float u{0};
+    float v{0};
+    float u_right{0};
+    float sigma_px{1};
+    float sigma_right_px{1};
+};
+
+struct ObjectFrame {
+    std::uint32_t frame{0};
+    std::int64_t time_us{0};
+    ObjectState state{};
+    Pose T_c_l{};  ///< camera pose of the frame, refreshed from the ego history every cycle
+    BoxMeasurement box{};
+    std::array<FeatureObservation, kMaxObjectFeatures> features{};
+};
+
+/// ^k f_n, fixed in the object frame; index = the feature's slot.
+struct ObjectLandmark {
+    std::uint32_t id{0};
+    bool valid{false};
+    Vec3 f_o{Vec3::Zero()};
+};
+
+struct ObjectWindow {
+    ObjectClass object_class{ObjectClass::kCar};
+    Mat3 R_l_w{Mat3::Identity()};
+    Vec3 size_m{Vec3::Ones()};  ///< d: length, width, height
+    Mat3 size_covariance{Mat3::Identity()};
+    bool standing{false};                               ///< the standing hypothesis explains the window as well
+    Mat6 covariance{Mat6::Identity()};                  ///< of the newest state (p, theta, v, delta)
+    StaticVector<ObjectFrame, kObjectWindow> frames{};  ///< oldest first
+    std::array<ObjectLandmark, kMaxObjectFeatures> landmarks{};
+
+    [[nodiscard]] ObjectFrame& newest() { return frames.back(); }
+    [[nodiscard]] const ObjectFrame& newest() const { return frames.back(); }
+};
+
+/// Motion of the state over dt [s] without new information: bicycle model at the rear axle for vehicles, straight
+/// on for pedestrians (theta is their direction of motion).
+[[nodiscard]] ObjectState predicted_state(const ObjectState& x, ObjectClass object_class, const Vec3& size_m,
+                                          double dt_s);
+/// Moves the window from its present L to the one of R_l_w_new; headings keep their direction in space.
+void relevel(ObjectWindow& window, const Mat3& R_l_w_new);
+/// Makes room for a new frame: the newest kObjectDenseFrames - 1 stay, of the older ones every kObjectFrameStride-th,
+/// and the oldest goes when the window is still full.
+void thin_out(ObjectWindow& window);
+/// Index of the frame with this number; -1: not in the window.
+[[nodiscard]] int find_frame(const ObjectWindow& window, std::uint32_t frame);
+
+}  // namespace semtrack
+
+#endif

@@ -1,0 +1,60 @@
+# Shared by ./demo and ./test: set-up of a Debian 12 machine, and progress lines. Sourced, not run.
+packages="g++ clang cmake ninja-build libeigen3-dev libopencv-core-dev libopencv-features2d-dev libgtest-dev libpng-dev
+libcli11-dev nlohmann-json3-dev python3 python3-canmatrix binutils"
+
+started=$(date +%s)
+
+step() { printf '[%4ds] %s\n' "$(($(date +%s) - started))" "$*"; }
+
+# finish STATUS TEXT: the clear last line.
+finish() {
+    step "$2"
+    exit "$1"
+}
+
+missing_packages() {
+    for package in $packages; do
+        dpkg-query -W -f '${Status}\n' "$package" 2>/dev/null | grep -q 'install ok installed' || printf '%s ' "$package"
+    done
+}
+
+# Installs what is missing as root; otherwise says exactly what to install and stops.
+set_up() {
+    local missing
+    missing=$(missing_packages)
+    if [ -z "$missing" ]; then
+        step "set-up: all packages are there"
+        return 0
+    fi
+    if [ "$(id -u)" -ne 0 ]; then
+        echo "These Debian packages are missing. Install them and start again:"
+        echo "    sudo apt-get install --no-install-recommends $missing"
+        finish 1 "FAILED: packages are missing"
+    fi
+    step "set-up: installing $missing"
+    local log
+    log=$(mktemp)
+    if ! { apt-get update && DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $missing; } \
+        >"$log" 2>&1; then
+        tail -n 20 "$log"
+        finish 1 "FAILED: apt-get could not install the packages above"
+    fi
+    rm -f "$log"
+}
+
+# build PRESET [TARGET...]
+build() {
+    local preset=$1
+    shift
+    step "configure and build: $preset"
+    mkdir -p build
+    local log=build/$preset.log
+    if ! cmake --preset "$preset" >"$log" 2>&1; then
+        tail -n 30 "$log"
+        finish 1 "FAILED: configure $preset (whole log: $log)"
+    fi
+    if ! cmake --build --preset "$preset" ${@:+--target "$@"} >>"$log" 2>&1; then
+        grep -E 'error|FAILED' "$log" | head -n 20
+        finish 1 "FAILED: build $preset (whole log: $log)"
+    fi
+}

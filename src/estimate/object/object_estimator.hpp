@@ -1,0 +1,43 @@
+// Solves the window of one object: moving and standing hypothesis, the better one stays; covariance of the newest
+// state; landmarks born from stereo and culled by their residual.
+#ifndef SEMTRACK_ESTIMATE_OBJECT_OBJECT_ESTIMATOR_HPP
+#define SEMTRACK_ESTIMATE_OBJECT_OBJECT_ESTIMATOR_HPP
+
+#include "estimate/object/object_problem.hpp"
+#include "estimate/solver/levenberg_marquardt.hpp"
+#include "semtrack/static_vector.hpp"
+
+namespace semtrack {
+
+struct ObjectSolveReport {
+    bool solved{false};  ///< false: the window was left as it was
+    LmReason reason{LmReason::kNoProgress};
+    double cost{0};                                           ///< of the chosen hypothesis
+    double standing_gain{0};                                  ///< |r|^2 standing minus moving
+    StaticVector<std::int16_t, kMaxObjectFeatures> culled{};  ///< slots whose feature is not on the object
+};
+
+class ObjectEstimator {
+public:
+    void init(const Calibration& calibration, const Config& config);
+
+    /// The window's newest frame holds a prediction and the new measurements. After the call: states, size, covariance
+    /// and landmarks are updated. Scratch is passed in: one workspace serves ego-motion and all objects.
+    /// Cost: two solves of 5 iterations.
+    ObjectSolveReport solve(ObjectWindow& window, NormalEquations& system, SolverStep& step);
+
+private:
+    void run(ObjectWindow& window, bool standing, NormalEquations& system, SolverStep& step);
+    void cull(const ObjectWindow& window, ObjectSolveReport& report) const;
+    void give_birth(ObjectWindow& window) const;
+
+    Calibration calibration_{};
+    ObjectProblemOptions options_{};
+    ObjectProblem problem_{};
+    LmReport lm_{};
+    ObjectVariables moving_{};  // result of the moving hypothesis, while standing is tried
+};
+
+}  // namespace semtrack
+
+#endif

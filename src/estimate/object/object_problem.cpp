@@ -1,0 +1,307 @@
+#include "estimate/object/object_problem.hpp"
+
+#include <cmath>
+
+#include "estimate/factor/stereo_point.hpp"
+#include "estimate/object/object_weights.hpp"
+#include "math/robust.hpp"
+#include "math/so3.hpp"
+#include "math/trig.hpp"
+#include "model/class_prior.hpp"
+
+namespace semtrack {
+
+namespace {
+
+constexpr double kMinSize_m = 0.2;  // a step must not turn a box inside out
+
+double time_step_s(const ObjectFrame& before, const ObjectFrame& after) {
+    return 1e-6 * static_cast<double>(after.time_us - before.time_us);
+}
+
+StereoPointMeasurement measurement(const FeatureObservation& o) {
+    StereoPointMeasurement z;
+    z.u = static_cast<double>(o.u);
+    z.v = static_cast<double>(o.v);
+    z.u_right = static_cast<double>(o.u_right);
+    z.stereo = o.stereo;
+    z.sigma_px = kFeatureSigmaScale * static_cast<double>(o.sigma_px);
+    z.sigma_right_px = kFeatureSigmaScale * static_cast<double>(o.sigma_right_px);
+    return z;
+}
+
+}  // namespace
+
+void ObjectProblem::begin(const ObjectWindow& window, const Calibration& calibration,
+                          const ObjectProblemOptions& options) {
+    window_ = &window;
+    calibration_ = &calibration;
+    options_ = options;
+    const ClassPrior& prior = class_prior(window.object_class);
+    has_heading_ = prior.has_heading;
+    motion_.model = prior.motion;
+    motion_.standing = options.standing;
+    motion_.wheelbase_m = prior.wheelbase_ratio * prior.size_m(0);
+    motion_.noise = options.standing                           ? kStandingNoise
+                    : prior.motion == MotionModel::kPedestrian ? kPedestrianNoise
+                                                               : kVehicleNoise;
+    size_prior_ = size_prior(window.object_class);
+    frames_ = window.frames.size();
+    const Vec3 t_d_c(calibration.t_d_c[0], calibration.t_d_c[1], calibration.t_d_c[2]);
+    for (int k = 0; k < frames_; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        current_.state[i] = window.frames[k].state;
+        const Pose& T_c_l = window.frames[k].T_c_l;
+        views_[i] = {calibration.detection, {T_c_l.R, T_c_l.t + t_d_c}};
+    }
+    current_.size_m = window.size_m;
+    points_ = 0;
+    for (int s = 0; s < kMaxObjectFeatures; ++s) {
+        const auto slot = static_cast<std::size_t>(s);
+        const ObjectLandmark& landmark = window.landmarks[slot];
+        current_.f_o[slot] = landmark.f_o;
+        if (!options.cues.features || !landmark.valid) {
+            continue;
+        }
+        int seen = 0;
+        for (const ObjectFrame& frame : window.frames) {
+            seen += frame.features[slot].valid ? 1 : 0;
+        }
+        if (seen >= 2) {
+            slot_of_point_[static_cast<std::size_t>(points_++)] = static_cast<std::int16_t>(s);
+        }
+    }
+    choose_vertices();
+}
+
+void ObjectProblem::choose_vertices() {
+    for (int k = 0; k < frames_; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        vertices_known_[i] = false;
+        if (!window_->frames[k].box.valid) {
+            continue;
+        }
+        const ObjectState& x = current_.state[i];
+        const Pose T_l_o{rot_z(box_heading(x, window_->object_class, views_[i])), x.p};
+        const Pose T_d_o = views_[i].T_d_l * T_l_o;
+        vertices_known_[i] = extreme_vertices(views_[i].camera, T_d_o, current_.size_m, vertices_[i]) == Status::kOk;
+        const Viewpoint& view = window_->frames[k].box.viewpoint;
+        if (!vertices_known_[i] && view.horizontal >= 0 && view.vertical >= 0) {
+            vertices_[i] = edge_vertices(view);  // beside the camera: the visible corners are still the table's
+            vertices_known_[i] = true;
+        }
+    }
+}
+
+Mat3 ObjectProblem::feature_rotation(const ObjectState& x) const {
+    return has_heading_ ? rot_z(x.theta) : Mat3(Mat3::Identity());
+}
+
+double ObjectProblem::linearise(NormalEquations& system) {
+    choose_vertices();
+    return evaluate(current_, &system);
+}
+
+double ObjectProblem::try_step(const SolverStep& step) {
+    candidate_ = current_;
+    for (int k = 0; k < frames_; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        ObjectState& x = candidate_.state[i];
+        const Vec6& d = step.frame[i];
+        x.p += d.head<3>();
+        x.theta = wrap_angle(x.theta + d(3));
+        x.v += d(4);
+        x.delta += d(5);
+    }
+    candidate_.size_m += step.shared;
+    for (int p = 0; p < points_; ++p) {
+        const auto slot = static_cast<std::size_t>(slot_of_point_[static_cast<std::size_t>(p)]);
+        candidate_.f_o[slot] += step.point[static_cast<std::size_t>(p)];
+    }
+    if (!(candidate_.size_m.minCoeff() > kMinSize_m)) {
+        return 1e301;
+    }
+    return evaluate(candidate_, nullptr);
+}
+
+void ObjectProblem::store(ObjectWindow& window) const {
+    for (int k = 0; k < frames_; ++k) {
+        window.frames[k].state = current_.state[static_cast<std::size_t>(k)];
+    }
+    window.size_m = current_.size_m;
+    for (int p = 0; p < points_; ++p) {
+        const auto slot = static_cast<std::size_t>(slot_of_point_[static_cast<std::size_t>(p)]);
+        window.landmarks[slot].f_o = current_.f_o[slot];
+    }
+}
+
+double ObjectProblem::evaluate(const ObjectVariables& x, NormalEquations* system) {
+    if (system != nullptr) {
+        system->clear(frames_, points_, true);
+    }
+    double cost = add_priors(x, system);
+    for (int k = 0; k < frames_; ++k) {
+        cost += add_boxes(x, k, system);
+        cost += add_ground(x, k, system);
+        if (k > 0) {
+            cost += add_motion(x, k, system);
+        }
+    }
+    return cost + add_features(x, system);
+}
+
+double ObjectProblem::add_boxes(const ObjectVariables& x, int k, NormalEquations* system) {
+    const auto i = static_cast<std::size_t>(k);
+    if (!vertices_known_[i]) {
+        return 0.0;
+    }
+    box_edge_residuals(x.state[i], window_->object_class, x.size_m, views_[i], vertices_[i], window_->frames[k].box,
+                       system != nullptr, edges_);
+    double cost = 0.0;
+    for (const EdgeResidual& e : edges_) {
+        if (!e.valid) {
+            continue;
+        }
+        const Robust huber_edge = huber(e.r * e.r, kEdgeHuber);
+        cost += 0.5 * huber_edge.rho;
+        if (system == nullptr) {
+            continue;
+        }
+        const double w = huber_edge.weight;
+        system->add_frame(k, w * (e.J_state * e.J_state.transpose()), w * e.r * e.J_state);
+        system->add_shared(w * (e.J_size * e.J_size.transpose()), w * e.r * e.J_size);
+        system->add_frame_shared(k, w * (e.J_state * e.J_size.transpose()));
+    }
+    return cost;
+}
+
+double ObjectProblem::add_ground(const ObjectVariables& x, int k, NormalEquations* system) {
+    if (!options_.cues.ground || !options_.ground.valid) {
+        return 0.0;
+    }
+    const auto i = static_cast<std::size_t>(k);
+    const GroundResidual g = ground_residual(x.state[i], x.size_m(2), window_->frames[k].T_c_l, options_.ground);
+    // Errors of the road under one object hardly change within a window: all frames together count once.
+    const double share = 1.0 / static_cast<double>(frames_);
+    const Robust rho = huber(g.r * g.r, kEdgeHuber);
+    if (system != nullptr) {
+        const double w = share * rho.weight;
+        Vec6 J = Vec6::Zero();
+        J(2) = g.J_z;
+        const Vec3 J_size(0.0, 0.0, g.J_height);
+        system->add_frame(k, w * (J * J.transpose()), w * g.r * J);
+        system->add_shared(w * (J_size * J_size.transpose()), w * g.r * J_size);
+        system->add_frame_shared(k, w * (J * J_size.transpose()));
+    }
+    return 0.5 * share * rho.rho;
+}
+
+double ObjectProblem::add_motion(const ObjectVariables& x, int k, NormalEquations* system) {
+    const double dt_s = time_step_s(window_->frames[k - 1], window_->frames[k]);
+    MotionModelSpec spec = motion_;
+    if (!options_.cues.motion) {
+        // Without M the frames stay connected by next to nothing, so that one of them without a box has a solution.
+        spec.standing = false;
+        spec.noise = {30.0, 5.0, 3.0, 30.0, 1.0};
+    }
+    Vec6 r;
+    Mat6 J_before;
+    Mat6 J_after;
+    motion_residual(x.state[static_cast<std::size_t>(k - 1)], x.state[static_cast<std::size_t>(k)], dt_s, spec,
+                    system != nullptr, r, J_before, J_after);
+    if (system != nullptr) {
+        system->add_frame(k - 1, J_before.transpose() * J_before, J_before.transpose() * r);
+        system->add_frame(k, J_after.transpose() * J_after, J_after.transpose() * r);
+        system->add_frame_pair(k - 1, k, J_before.transpose() * J_after);
+    }
+    return 0.5 * r.dot(r);
+}
+
+double ObjectProblem::add_priors(const ObjectVariables& x, NormalEquations* system) {
+    double cost = 0.5 * size_prior_cost(size_prior_, x.size_m);
+    const ObjectState& oldest = x.state[0];
+    const double speed_weight = 1.0 / (kSpeedSigma * kSpeedSigma);
+    cost += 0.5 * speed_weight * oldest.v * oldest.v;
+    const double steering_weight = 1.0 / (kSteeringSigma_rad * kSteeringSigma_rad);
+    for (int k = 0; k < frames_; ++k) {
+        const double delta = x.state[static_cast<std::size_t>(k)].delta;
+        cost += 0.5 * steering_weight * delta * delta / static_cast<double>(frames_);
+    }
+    if (system == nullptr) {
+        return cost;
+    }
+    system->add_shared(size_prior_.information, size_prior_.information * (x.size_m - size_prior_.mean_m));
+    for (int k = 0; k < frames_; ++k) {
+        Mat6 H = Mat6::Zero();
+        Vec6 g = Vec6::Zero();
+        const double w = steering_weight / static_cast<double>(frames_);
+        H(5, 5) = w;
+        g(5) = w * x.state[static_cast<std::size_t>(k)].delta;
+        if (k == 0) {  // no residual: only damping about where the window stands
+            H(0, 0) = H(1, 1) = H(2, 2) = 1.0 / (kAnchorPosition_m * kAnchorPosition_m);
+            H(3, 3) = 1.0 / (kAnchorHeading_rad * kAnchorHeading_rad);
+            H(4, 4) = speed_weight;
+            g(4) = speed_weight * oldest.v;
+        }
+        system->add_frame(k, H, g);
+    }
+    return cost;
+}
+
+double ObjectProblem::add_features(const ObjectVariables& x, NormalEquations* system) {
+    double cost = 0.0;
+    for (int k = 0; k < frames_; ++k) {
+        const ObjectFrame& frame = window_->frames[k];
+        const ObjectState& state = x.state[static_cast<std::size_t>(k)];
+        const Mat3 R_c_o = frame.T_c_l.R * feature_rotation(state);
+        const Vec3 t_c_o = frame.T_c_l * state.p;
+        for (int p = 0; p < points_; ++p) {
+            const auto slot = static_cast<std::size_t>(slot_of_point_[static_cast<std::size_t>(p)]);
+            const FeatureObservation& o = frame.features[slot];
+            if (!o.valid) {
+                continue;
+            }
+            const Vec3& f = x.f_o[slot];
+            StereoPointResidual z;
+            if (stereo_point_residual(*calibration_, R_c_o * f + t_c_o, measurement(o), system != nullptr, z) !=
+                Status::kOk) {
+                cost += 0.5 * kFeatureCull * kFeatureCull;
+                continue;
+            }
+            const Robust rho = huber(z.r.dot(z.r), kFeatureHuber);
+            cost += 0.5 * rho.rho;
+            if (system == nullptr) {
+                continue;
+            }
+            // x_c = R_c_l (p + R_z f) + t: by p R_c_l, by theta R_c_o (z x f), by f R_c_o
+            Mat3x6 J = Mat3x6::Zero();
+            J.leftCols<3>() = z.J * frame.T_c_l.R;
+            if (has_heading_) {
+                J.col(3) = z.J * (R_c_o * Vec3(-f(1), f(0), 0.0));
+            }
+            const Mat3 J_f = z.J * R_c_o;
+            const Vec3 wr = rho.weight * z.r;
+            system->add_frame(k, rho.weight * (J.transpose() * J), J.transpose() * wr);
+            system->add_point(p, rho.weight * (J_f.transpose() * J_f), J_f.transpose() * wr);
+            system->add_frame_point(k, p, rho.weight * (J.transpose() * J_f));
+        }
+    }
+    return cost;
+}
+
+double ObjectProblem::feature_residual2(int frame, int slot) const {
+    const ObjectFrame& f = window_->frames[frame];
+    const FeatureObservation& o = f.features[static_cast<std::size_t>(slot)];
+    const ObjectState& state = current_.state[static_cast<std::size_t>(frame)];
+    if (!o.valid) {
+        return -1.0;
+    }
+    const Vec3 x_c = f.T_c_l * (feature_rotation(state) * current_.f_o[static_cast<std::size_t>(slot)] + state.p);
+    StereoPointResidual z;
+    if (stereo_point_residual(*calibration_, x_c, measurement(o), false, z) != Status::kOk) {
+        return -1.0;
+    }
+    return z.r.dot(z.r);
+}
+
+}  // namespace semtrack

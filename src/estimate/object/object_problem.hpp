@@ -1,0 +1,79 @@
+// Dynamic object bundle adjustment, paper Eq. (10) [eq:object-motion2], as a problem for levenberg_marquardt():
+//   sum r_Z + r_P + sum r_M + sum r_S (+ ground contact)  over the states of the window, its size and its landmarks.
+#ifndef SEMTRACK_ESTIMATE_OBJECT_OBJECT_PROBLEM_HPP
+#define SEMTRACK_ESTIMATE_OBJECT_OBJECT_PROBLEM_HPP
+
+#include <array>
+
+#include "estimate/factor/box_edges.hpp"
+#include "estimate/factor/ground.hpp"
+#include "estimate/factor/motion.hpp"
+#include "estimate/factor/size_prior.hpp"
+#include "estimate/solver/normal_equations.hpp"
+#include "model/object_window.hpp"
+#include "semtrack/calibration.hpp"
+#include "semtrack/config.hpp"
+
+namespace semtrack {
+
+/// What the optimisation changes.
+struct ObjectVariables {
+    std::array<ObjectState, kObjectWindow> state{};
+    Vec3 size_m{Vec3::Ones()};
+    std::array<Vec3, kMaxObjectFeatures> f_o{};  // by slot
+};
+
+struct ObjectProblemOptions {
+    Cues cues{};
+    bool standing{false};
+    GroundPrior ground{};
+};
+
+class ObjectProblem {
+public:
+    /// Looks at the window without changing it; landmarks seen in two frames or more take part.
+    void begin(const ObjectWindow& window, const Calibration& calibration, const ObjectProblemOptions& options);
+    /// Takes up other variables (of the same window).
+    void set(const ObjectVariables& variables) { current_ = variables; }
+    [[nodiscard]] const ObjectVariables& variables() const { return current_; }
+    /// Copies the variables into the window they came from.
+    void store(ObjectWindow& window) const;
+
+    double linearise(NormalEquations& system);
+    double try_step(const SolverStep& step);
+    void accept() { current_ = candidate_; }
+
+    /// Squared residual of one observation in sigmas; negative: behind the camera or not observed.
+    [[nodiscard]] double feature_residual2(int frame, int slot) const;
+    [[nodiscard]] int landmarks() const { return points_; }
+
+private:
+    double evaluate(const ObjectVariables& x, NormalEquations* system);
+    double add_boxes(const ObjectVariables& x, int k, NormalEquations* system);
+    double add_ground(const ObjectVariables& x, int k, NormalEquations* system);
+    double add_motion(const ObjectVariables& x, int k, NormalEquations* system);
+    double add_priors(const ObjectVariables& x, NormalEquations* system);
+    double add_features(const ObjectVariables& x, NormalEquations* system);
+    void choose_vertices();
+    [[nodiscard]] Mat3 feature_rotation(const ObjectState& x) const;
+
+    const ObjectWindow* window_{nullptr};
+    const Calibration* calibration_{nullptr};
+    ObjectProblemOptions options_{};
+    MotionModelSpec motion_{};
+    SizePrior size_prior_{};
+    bool has_heading_{true};
+    int frames_{0};
+    int points_{0};
+    std::array<std::int16_t, kMaxObjectFeatures> slot_of_point_{};
+    std::array<bool, kObjectWindow> vertices_known_{};
+    std::array<EdgeVertices, kObjectWindow> vertices_{};
+    std::array<DetectionView, kObjectWindow> views_{};
+    ObjectVariables current_{};
+    ObjectVariables candidate_{};
+    EdgeResiduals edges_{};
+};
+
+}  // namespace semtrack
+
+#endif

@@ -1,0 +1,39 @@
+// Covariances of the object's cost terms, one set for all drives. Source: residuals of KITTI labels and of real
+// detectors against them (docs/weights.md says how each was found).
+#ifndef SEMTRACK_ESTIMATE_OBJECT_OBJECT_WEIGHTS_HPP
+#define SEMTRACK_ESTIMATE_OBJECT_OBJECT_WEIGHTS_HPP
+
+#include "estimate/factor/motion.hpp"
+#include "model/class_prior.hpp"
+
+namespace semtrack {
+
+inline constexpr double kEdgeHuber = 2.5;          // sigmas; a detector's edges have heavy tails
+inline constexpr double kFeatureHuber = 2.5;       // sigmas of one observation (2 or 3 values)
+inline constexpr double kFeatureCull = 6.0;        // sigmas: beyond, the feature is not on the object
+inline constexpr double kFeatureSigmaScale = 1.5;  // car bodies mirror and bend: noisier than the background
+
+/// Prior of the steering angle: a curvature of 0.05 / m at a wheelbase of 2.6 m.
+inline constexpr double kSteeringSigma_rad = 0.13;
+/// Prior of the speed at the oldest frame: any road user.
+inline constexpr double kSpeedSigma = 15.0;
+/// Weak hold of the oldest frame's pose where nothing else determines it.
+inline constexpr double kAnchorPosition_m = 10.0;
+inline constexpr double kAnchorHeading_rad = 1.0;
+
+/// 0.04 m and 0.01 rad a frame at 10 Hz; acceleration of 2.5 m/s^2 as a random walk over a frame.
+inline constexpr MotionNoise kVehicleNoise{0.126, 0.10, 0.03, 0.8, 0.10};
+/// Pedestrians turn at will and change their speed within a step.
+inline constexpr MotionNoise kPedestrianNoise{0.126, 0.10, 1.0, 0.8, 0.10};
+/// A standing object: 0.01 m a frame (ego error), a heading that stays.
+inline constexpr MotionNoise kStandingNoise{0.04, 0.05, 0.01, 0.05, 0.05};
+
+/// Standing is kept while the moving model explains the window only so much better (difference of |r|^2).
+inline constexpr double kStandingGain = 10.0;
+inline constexpr double kStandingGainKeep = 16.0;
+/// A faster object is not taken for standing whatever the costs say.
+inline constexpr double kStandingMaxSpeed = 2.5;
+
+}  // namespace semtrack
+
+#endif

@@ -15,7 +15,7 @@ struct ClassPrior {
     Vec3 size_sigma_m;
     double wheelbase_ratio;  ///< wheelbase / length (bicycle model)
     MotionModel motion;
-    bool has_heading;        ///< viewpoint and theta mean something
+    bool has_heading;  ///< viewpoint and theta mean something
 };
 
 [[nodiscard]] const ClassPrior& class_prior(ObjectClass object_class);

@@ -47,6 +47,19 @@ void thin_out(ObjectWindow& window) {
     }
 }
 
+void change_object_frame(ObjectWindow& window, const Vec3& shift_o, double turn_rad) {
+    const Mat3 R_new_old = rot_z(-turn_rad);
+    for (ObjectFrame& frame : window.frames) {
+        frame.state.p = frame.state.T_l_o() * shift_o;
+        frame.state.theta = wrap_angle(frame.state.theta + turn_rad);
+    }
+    for (ObjectLandmark& landmark : window.landmarks) {
+        if (landmark.valid) {
+            landmark.f_o = R_new_old * (landmark.f_o - shift_o);
+        }
+    }
+}
+
 int find_frame(const ObjectWindow& window, std::uint32_t frame) {
     for (int i = window.frames.size() - 1; i >= 0; --i) {
         if (window.frames[i].frame == frame) {

@@ -85,6 +85,9 @@ void relevel(ObjectWindow& window, const Mat3& R_l_w_new);
 /// Makes room for a new frame: the newest kObjectDenseFrames - 1 stay, of the older ones every kObjectFrameStride-th,
 /// and the oldest goes when the window is still full.
 void thin_out(ObjectWindow& window);
+/// Another choice of the object's axes: x_old = R_z(turn) x_new + shift. Poses of all frames and landmarks move
+/// together, so that no feature's projection changes.
+void change_object_frame(ObjectWindow& window, const Vec3& shift_o, double turn_rad);
 /// Index of the frame with this number; -1: not in the window.
 [[nodiscard]] int find_frame(const ObjectWindow& window, std::uint32_t frame);
 

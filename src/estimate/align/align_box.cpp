@@ -166,20 +166,6 @@ bool map_information(const ObjectWindow& window, Mat3& information) {
     return true;
 }
 
-void move_frame(const Alignment& a, ObjectWindow& window) {
-    const Pose T_old_new{rot_z(a.dtheta), Vec3(a.dx, a.dy, 0.0)};
-    const Pose T_new_old = T_old_new.inverse();
-    for (ObjectFrame& frame : window.frames) {
-        frame.state.p = frame.state.T_l_o() * T_old_new.t;
-        frame.state.theta = wrap_angle(frame.state.theta + a.dtheta);
-    }
-    for (ObjectLandmark& landmark : window.landmarks) {
-        if (landmark.valid) {
-            landmark.f_o = T_new_old * landmark.f_o;
-        }
-    }
-}
-
 }  // namespace
 
 Status align_box(const Calibration& calibration, ObjectWindow& window, AlignmentReport& report) {
@@ -208,7 +194,7 @@ Status align_box(const Calibration& calibration, ObjectWindow& window, Alignment
         std::fabs(a.dtheta) > 0.5) {
         return Status::kNotObservable;
     }
-    move_frame(a, window);
+    change_object_frame(window, Vec3(a.dx, a.dy, 0.0), a.dtheta);
     report = {a.points, a.dx, a.dy, a.dtheta};
     return Status::kOk;
 }

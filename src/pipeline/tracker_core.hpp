@@ -1,0 +1,123 @@
+// The inside of Tracker: all state, and the stages in the order of the paper's Fig. 2.
+#ifndef SEMTRACK_PIPELINE_TRACKER_CORE_HPP
+#define SEMTRACK_PIPELINE_TRACKER_CORE_HPP
+
+#include <array>
+#include <cstdint>
+
+#include "estimate/ego/ego_estimator.hpp"
+#include "estimate/object/object_estimator.hpp"
+#include "front/associate/associate.hpp"
+#include "front/box/infer_box.hpp"
+#include "front/feature/orb_extractor.hpp"
+#include "front/mask/owner_mask_builder.hpp"
+#include "front/match/orb_matcher.hpp"
+#include "front/match/patch_matcher.hpp"
+#include "front/ransac/reject.hpp"
+#include "pipeline/level.hpp"
+#include "semtrack/tracker.hpp"
+#include "track/track_table.hpp"
+
+namespace semtrack {
+
+/// A track as it stood at one frame, ready to be compared with that frame's detections.
+struct TrackAtFrame {
+    int slot{0};
+    int index{0};  ///< of the frame in the track's window
+};
+
+class TrackerCore {
+public:
+    Status init(const Config& config, const Calibration& calibration, FeatureExtractor* extractor,
+                StageObserver* observer);
+    Status process(const Input& input, Output& output);
+
+private:
+    // tracker_core.cpp
+    [[nodiscard]] bool acceptable(const Input& input) const;
+    [[nodiscard]] Pose predict_ego(const Input& input) const;
+    void run_ego(const Input& input);  // stage 7
+    void count_health(const Input& input);
+    void build_output(Output& output);
+    void describe_points(Output& output) const;
+    void begin(Stage stage) {
+        if (observer_ != nullptr) {
+            observer_->begin(stage);
+        }
+    }
+    void end(Stage stage) {
+        if (observer_ != nullptr) {
+            observer_->end(stage);
+        }
+    }
+
+    // tracker_detections.cpp: stages 1 and 2
+    void predict_tracks();
+    void refresh_poses(Track& track) const;
+    void take_lists(const Input& input);
+    void take_list(const DetectionList& list, std::uint32_t frame);
+    void attach(Track& track, int index, const DetectionList& list, int item, std::uint32_t frame);
+    void start_track(const DetectionList& list, int item, std::uint32_t frame);
+    void watch_heading(Track& track, int index, const Detection& detection);
+    [[nodiscard]] bool infer(const Detection& detection, const Pose& T_c_l, const Vec3& size_m, const double* theta,
+                             ObjectState& x) const;
+    [[nodiscard]] Box2d expected_box(const Track& track, int index) const;
+    [[nodiscard]] bool frame_of(std::int64_t time_us, std::uint32_t& frame, Pose& T_w_c) const;
+
+    // tracker_features.cpp: stages 3 to 6
+    void build_masks();
+    void set_priors();
+    void match(const Input& input);
+    void reject();
+    void drop_feature(int owner, int slot);
+
+    // tracker_objects.cpp: stages 8 to 10
+    void feed_features();
+    void solve_objects();
+    void update_lifecycle();
+
+    Config config_{};
+    Calibration calibration_{};
+    FeatureExtractor* extractor_{nullptr};
+    StageObserver* observer_{nullptr};
+    bool ready_{false};
+    bool started_{false};
+    bool features_usable_{false};        // an image of this frame went through the matcher
+    std::uint32_t frame_{0};             // number of the current frame, from 1
+    std::uint32_t last_image_frame_{0};  // the matcher's last frame
+    std::int64_t time_us_{0};
+    Pose T_v_c_{};
+    Vec3 t_d_c_{Vec3::Zero()};
+    Pose T_w_c_{};  // of the current frame: predicted until stage 7, then estimated
+
+    LocalLevel level_{};
+    EgoEstimator ego_{};
+    EgoResult ego_result_{};
+    ObjectEstimator objects_{};
+    TrackTable tracks_{};
+    PatchMatcher patch_{};
+    OrbExtractor native_orb_{};
+    OrbMatcher orb_{};
+    OwnerMaskBuilder mask_builder_{};
+    OwnerMask mask_left_{};
+    OwnerMask mask_right_{};
+    OwnerPriors priors_{};
+    FrameFeatures features_{};
+    OutlierRejection rejection_{};
+    ObjectFrame new_frame_{};
+    DetectionList usable_{};
+    StaticVector<TrackAtFrame, kMaxObjects> candidates_{};
+    StaticVector<TrackBox, kMaxObjects> boxes_{};
+    Assignment assignment_{};
+    StaticVector<MaskItem, kMaxObjects> mask_items_left_{};
+    StaticVector<MaskItem, kMaxObjects> mask_items_right_{};
+    StaticVector<MaskResult, kMaxObjects> mask_results_{};
+    ObjectSolveReport solve_report_{};
+    NormalEquations system_{};
+    SolverStep step_{};
+    Health health_{};
+};
+
+}  // namespace semtrack
+
+#endif

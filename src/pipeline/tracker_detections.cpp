@@ -1,0 +1,395 @@
+// Stages 1 and 2: tracks are predicted to the frame, every list finds the frame of its own image, boxes become rough
+// 3D poses (paper Sect. 3.2), and detections and tracks find each other (Sect. 4).
+#include <cmath>
+
+#include "estimate/factor/box_edges.hpp"
+#include "math/so3.hpp"
+#include "math/trig.hpp"
+#include "model/class_prior.hpp"
+#include "pipeline/tracker_core.hpp"
+
+namespace semtrack {
+
+namespace {
+
+constexpr std::int64_t kSameImage_us = 5000;  // stamps of one image may differ by rounding, not by half a frame
+constexpr double kBorder_px = 1.5;            // an edge this near to the border is the border's, not the object's
+constexpr int kYoungHits = 4;                 // until then the motion is not known: the last 2D box predicts best
+constexpr int kWrongViews = 3;                // detections in a row that contradict the heading
+constexpr double kStartDepthSigma = 0.15;     // of the depth: a size prior is off by so much
+
+/// Edges of a detector scatter by 0.8 px and 2 % of the height; sideways more; hidden ones twice; and they are
+/// correlated over a window (0.75-0.79 from frame to frame), which twice the sigma accounts for.
+std::array<double, 4> edge_sigmas(const DetectionList& list, int item, int width, int height) {
+    constexpr double kBase_px = 0.8;
+    constexpr double kShareOfHeight = 0.022;
+    constexpr double kSideways = 1.25;
+    constexpr double kHidden = 2.0;
+    constexpr double kCorrelated = 2.0;
+    const Box2d& box = list.items[item].box;
+    const double h = kShareOfHeight * (box.bottom - box.top);
+    const double sigma = kCorrelated * std::sqrt(kBase_px * kBase_px + h * h);
+    std::array<double, 4> out{kSideways * sigma, kSideways * sigma, sigma, sigma};
+    for (int other = 0; other < list.items.size(); ++other) {
+        const Box2d& b = list.items[other].box;
+        if (other == item || !(b.bottom > box.bottom)) {
+            continue;
+        }  // lower in the image is nearer
+        const double rows = (b.bottom < box.bottom ? b.bottom : box.bottom) - (b.top > box.top ? b.top : box.top);
+        const double columns = (b.right < box.right ? b.right : box.right) - (b.left > box.left ? b.left : box.left);
+        const bool tall = rows > 0.3 * (box.bottom - box.top);
+        const bool wide = columns > 0.3 * (box.right - box.left);
+        if (tall && b.left < box.left && b.right > box.left) {
+            out[kLeft] *= kHidden;
+        }
+        if (tall && b.left < box.right && b.right > box.right) {
+            out[kRight] *= kHidden;
+        }
+        if (wide && b.top < box.top && b.bottom > box.top) {
+            out[kTop] *= kHidden;
+        }
+        if (wide && b.top < box.bottom) {
+            out[kBottom] *= kHidden;
+        }
+    }
+    if (box.left < kBorder_px) {
+        out[kLeft] = 0.0;
+    }
+    if (box.right > width - 1 - kBorder_px) {
+        out[kRight] = 0.0;
+    }
+    if (box.top < kBorder_px) {
+        out[kTop] = 0.0;
+    }
+    if (box.bottom > height - 1 - kBorder_px) {
+        out[kBottom] = 0.0;
+    }
+    return out;
+}
+
+bool usable(const Detection& d, int width, int height, Box2d& clipped) {
+    const Box2d& b = d.box;
+    if (!std::isfinite(b.left) || !std::isfinite(b.top) || !std::isfinite(b.right) || !std::isfinite(b.bottom) ||
+        !std::isfinite(d.score) || !(b.right > b.left) || !(b.bottom > b.top)) {
+        return false;
+    }
+    return clip_box(b, width, height, clipped) && clipped.right > clipped.left && clipped.bottom > clipped.top;
+}
+
+/// Steps between two horizontal viewpoint classes on the circle of eight.
+int class_distance(int a, int b) {
+    const int d = a > b ? a - b : b - a;
+    return d > 4 ? 8 - d : d;
+}
+
+}  // namespace
+
+void TrackerCore::refresh_poses(Track& track) const {
+    const Mat3 R_w_l = track.window.R_l_w.transpose();
+    for (ObjectFrame& frame : track.window.frames) {
+        Pose T_w_c = T_w_c_;
+        if (frame.frame != frame_) {
+            if (!ego_.history().find(frame.frame, T_w_c)) {
+                continue;
+            }
+            T_w_c = T_v_c_ * T_w_c;
+        }
+        const Pose T_c_w = T_w_c.inverse();
+        frame.T_c_l = {T_c_w.R * R_w_l, T_c_w.t};
+    }
+}
+
+void TrackerCore::predict_tracks() {
+    for (int s = 0; s < kMaxObjects; ++s) {
+        Track& track = tracks_[s];
+        if (!track.alive) {
+            continue;
+        }
+        ObjectWindow& window = track.window;
+        relevel(window, level_.R_l_w());
+        thin_out(window);
+        const ObjectFrame& last = window.newest();
+        const double dt_s = 1e-6 * static_cast<double>(time_us_ - last.time_us);
+        new_frame_.frame = frame_;
+        new_frame_.time_us = time_us_;
+        new_frame_.state = predicted_state(last.state, window.object_class, window.size_m, dt_s);
+        new_frame_.box.valid = false;
+        for (FeatureObservation& o : new_frame_.features) {
+            o.valid = false;
+        }
+        if (!window.frames.try_push_back(new_frame_)) {
+            continue;
+        }
+        refresh_poses(track);
+        track.hit_now = false;
+        track.list_seen = false;
+    }
+}
+
+bool TrackerCore::frame_of(std::int64_t time_us, std::uint32_t& frame, Pose& T_w_c) const {
+    const std::int64_t age_us = time_us_ - time_us;
+    if (age_us <= kSameImage_us && age_us >= -kSameImage_us) {
+        frame = frame_;
+        T_w_c = T_w_c_;
+        return true;
+    }
+    for (std::uint32_t back = 1; back <= kMaxDetectionDelay && back < frame_; ++back) {
+        std::int64_t stamp_us = 0;
+        Pose T_wc_c;
+        if (!ego_.history().find(frame_ - back, T_wc_c, &stamp_us)) {
+            continue;
+        }
+        const std::int64_t d = stamp_us - time_us;
+        if (d <= kSameImage_us && d >= -kSameImage_us) {
+            frame = frame_ - back;
+            T_w_c = T_v_c_ * T_wc_c;
+            return true;
+        }
+    }
+    return false;
+}
+
+void TrackerCore::take_lists(const Input& input) {
+    health_.no_detections = input.detections == nullptr || input.detections->empty();
+    if (input.detections == nullptr) {
+        return;
+    }
+    for (const DetectionList& list : *input.detections) {
+        std::uint32_t frame = 0;
+        Pose T_w_c;
+        health_.detections_dropped += list.dropped;
+        if (!frame_of(list.time_us, frame, T_w_c)) {
+            ++health_.lists_too_late;
+            continue;
+        }
+        if (frame != frame_) {
+            ++health_.lists_late;
+        }
+        take_list(list, frame);
+    }
+}
+
+void TrackerCore::take_list(const DetectionList& list, std::uint32_t frame) {
+    begin(Stage::kAssociate);
+    usable_.time_us = list.time_us;
+    usable_.items.clear();
+    for (const Detection& detection : list.items) {
+        Detection d = detection;
+        const bool ok = usable(detection, calibration_.width, calibration_.height, d.box);
+        if (!ok || !usable_.items.try_push_back(d)) {
+            ++health_.detections_dropped;
+        }
+    }
+    candidates_.clear();
+    boxes_.clear();
+    for (int s = 0; s < kMaxObjects; ++s) {
+        const Track& track = tracks_[s];
+        const int index = track.alive ? find_frame(track.window, frame) : -1;
+        if (index < 0) {
+            continue;
+        }
+        TrackBox box;
+        box.object_class = track.window.object_class;
+        box.box = expected_box(track, index);
+        (void)boxes_.try_push_back(box);
+        (void)candidates_.try_push_back({s, index});
+    }
+    associate(boxes_, usable_, assignment_);
+    for (int t = 0; t < candidates_.size(); ++t) {
+        Track& track = tracks_[candidates_[t].slot];
+        const int item = assignment_.detection_of_track[static_cast<std::size_t>(t)];
+        track.list_seen = track.list_seen || frame == frame_;
+        if (item >= 0) {
+            attach(track, candidates_[t].index, usable_, item, frame);
+        } else {
+            update_miss(track, detection_probability(track, boxes_[t].box.bottom - boxes_[t].box.top));
+        }
+    }
+    end(Stage::kAssociate);
+    begin(Stage::kInfer);
+    for (int item = 0; item < usable_.items.size(); ++item) {
+        if (!assignment_.detection_used[static_cast<std::size_t>(item)]) {
+            start_track(usable_, item, frame);
+        }
+    }
+    end(Stage::kInfer);
+}
+
+Box2d TrackerCore::expected_box(const Track& track, int index) const {
+    const ObjectFrame& frame = track.window.frames[index];
+    const DetectionView view{calibration_.detection, {frame.T_c_l.R, frame.T_c_l.t + t_d_c_}};
+    const Pose T_l_o{rot_z(box_heading(frame.state, track.window.object_class, view)), frame.state.p};
+    Box2d box = track.box;
+    Box2d projected;
+    if (track.hits >= kYoungHits || track.features > 0) {
+        if (projected_box(view.camera, view.T_d_l * T_l_o, track.window.size_m, projected) == Status::kOk &&
+            clip_box(projected, calibration_.width, calibration_.height, projected)) {
+            return projected;
+        }
+    }
+    if (index > 0) {
+        const Pose& before = track.window.frames[index - 1].T_c_l;
+        box = rotated_box(track.box, frame.T_c_l.R * before.R.transpose(), calibration_.detection);
+    }
+    return box;
+}
+
+void TrackerCore::attach(Track& track, int index, const DetectionList& list, int item, std::uint32_t frame) {
+    const Detection& detection = list.items[item];
+    ObjectFrame& f = track.window.frames[index];
+    f.box.valid = true;
+    f.box.box = detection.box;
+    f.box.sigma_px = edge_sigmas(list, item, calibration_.width, calibration_.height);
+    f.box.viewpoint = detection.viewpoint;
+    f.box.score = detection.score;
+    update_hit(track, detection.score);
+    track.box = detection.box;
+    if (frame == frame_) {
+        track.hit_now = true;
+    }
+    watch_heading(track, index, detection);
+    if (frame != frame_ || track.hits > kYoungHits) {
+        return;
+    }
+    // A young track's motion is not known: its predicted position follows the box sideways, so that its features are
+    // looked for where the object is.
+    const DetectionView view{calibration_.detection, {f.T_c_l.R, f.T_c_l.t + t_d_c_}};
+    const Vec3 p_d = view.T_d_l * f.state.p;
+    if (!(p_d(2) > 1.0)) {
+        return;
+    }
+    const Vec3 ray = bearing(view.camera, 0.5 * (detection.box.left + detection.box.right),
+                             0.5 * (detection.box.top + detection.box.bottom));
+    const bool whole = f.box.sigma_px[kLeft] > 0.0 && f.box.sigma_px[kRight] > 0.0;
+    if (!whole) {
+        return;
+    }
+    const Vec3 shift_d(ray(0) * p_d(2) - p_d(0), 0.0, 0.0);
+    f.state.p += view.T_d_l.R.transpose() * shift_d;
+}
+
+void TrackerCore::watch_heading(Track& track, int index, const Detection& detection) {
+    if (!class_prior(track.window.object_class).has_heading) {
+        return;
+    }
+    ObjectFrame& f = track.window.frames[index];
+    const Pose T_d_l{f.T_c_l.R, f.T_c_l.t + t_d_c_};
+    const bool has_view = detection.viewpoint.horizontal >= 0;
+    if (has_view) {
+        const Viewpoint seen = visible_faces(T_d_l * f.state.T_l_o(), track.window.size_m);
+        const bool wrong = seen.horizontal >= 0 && class_distance(seen.horizontal, detection.viewpoint.horizontal) >= 2;
+        track.wrong_views = wrong ? track.wrong_views + 1 : 0;
+    } else {
+        // Cars drive forwards: a track that never had a viewpoint and runs backwards at speed was started reversed.
+        track.wrong_views = f.state.v < -2.0 ? track.wrong_views + 1 : 0;
+    }
+    if (track.wrong_views < kWrongViews) {
+        return;
+    }
+    track.wrong_views = 0;
+    double turn = kPi;
+    if (has_view) {
+        ObjectState inferred;
+        if (!infer(detection, f.T_c_l, track.window.size_m, nullptr, inferred)) {
+            return;
+        }
+        turn = wrap_angle(inferred.theta - f.state.theta);
+    }
+    change_object_frame(track.window, Vec3::Zero(), turn);
+    const bool reversed = turn > 0.5 * kPi || turn < -0.5 * kPi;
+    for (ObjectFrame& frame : track.window.frames) {
+        if (reversed) {
+            frame.state.v = -frame.state.v;
+        }
+        frame.state.delta = 0.0;
+    }
+}
+
+bool TrackerCore::infer(const Detection& detection, const Pose& T_c_l, const Vec3& size_m, const double* theta,
+                        ObjectState& x) const {
+    BoxInferenceInput in;
+    in.box = detection.box;
+    in.viewpoint = detection.viewpoint;
+    in.object_class = detection.object_class;
+    in.size_m = size_m;
+    in.camera = calibration_.detection;
+    in.R_c_l = T_c_l.R;
+    in.width = calibration_.width;
+    in.height = calibration_.height;
+    in.has_theta = theta != nullptr;
+    in.theta = theta != nullptr ? *theta : 0.0;
+    BoxHypotheses hypotheses;
+    if (infer_box(in, hypotheses) != Status::kOk || hypotheses.empty()) {
+        return false;
+    }
+    const BoxHypothesis& best = hypotheses[0];
+    x = ObjectState{};
+    x.p = T_c_l.R.transpose() * (best.p_c - t_d_c_ - T_c_l.t);
+    x.theta = best.theta;
+    return true;
+}
+
+void TrackerCore::start_track(const DetectionList& list, int item, std::uint32_t frame) {
+    const Detection& detection = list.items[item];
+    const ClassPrior& prior = class_prior(detection.object_class);
+    std::uint32_t found = 0;
+    Pose T_w_c;
+    if (!frame_of(list.time_us, found, T_w_c)) {
+        return;
+    }
+    const Pose T_c_w = T_w_c.inverse();
+    const Pose T_c_l{T_c_w.R * level_.R_l_w().transpose(), T_c_w.t};
+    ObjectState x;
+    if (!infer(detection, T_c_l, prior.size_m, nullptr, x)) {
+        return;
+    }  // too much of it outside: not observable yet
+    int slot = -1;
+    Track* track = tracks_.start(detection.object_class, detection.score, slot);
+    if (track == nullptr) {
+        ++health_.tracks_dropped;
+        return;
+    }
+    ObjectWindow& window = track->window;
+    window.R_l_w = level_.R_l_w();
+    window.size_m = prior.size_m;
+    window.size_covariance = prior.size_sigma_m.cwiseProduct(prior.size_sigma_m).asDiagonal();
+    const Vec3 p_c = T_c_l * x.p;
+    const double depth = kStartDepthSigma * std::sqrt(p_c.dot(p_c));
+    Vec6 variance;
+    variance << depth * depth, depth * depth, 0.25, 0.25, 100.0, 0.02;
+    window.covariance = variance.asDiagonal();
+    track->box = detection.box;
+    track->hit_now = frame == frame_;
+    // One frame at the list's own time, then one for every frame until now.
+    ObjectState state = x;
+    std::int64_t stamp_us = list.time_us;
+    for (std::uint32_t k = frame; k <= frame_; ++k) {
+        Pose unused;
+        std::int64_t next_us = time_us_;
+        if (k != frame_ && !ego_.history().find(k, unused, &next_us)) {
+            continue;
+        }
+        state =
+            predicted_state(state, window.object_class, window.size_m, 1e-6 * static_cast<double>(next_us - stamp_us));
+        stamp_us = next_us;
+        new_frame_.frame = k;
+        new_frame_.time_us = next_us;
+        new_frame_.state = state;
+        new_frame_.box.valid = false;
+        for (FeatureObservation& o : new_frame_.features) {
+            o.valid = false;
+        }
+        if (!window.frames.try_push_back(new_frame_)) {
+            break;
+        }
+    }
+    BoxMeasurement& box = window.frames[0].box;
+    box.valid = true;
+    box.box = detection.box;
+    box.sigma_px = edge_sigmas(list, item, calibration_.width, calibration_.height);
+    box.viewpoint = detection.viewpoint;
+    box.score = detection.score;
+    refresh_poses(*track);
+}
+
+}  // namespace semtrack

@@ -9,7 +9,7 @@
 namespace semtrack {
 
 struct LmOptions {
-    int iterations{5};            ///< linearisations and solves, together with rejected steps
+    int iterations{5};  ///< linearisations and solves, together with rejected steps
     double initial_lambda{1e-4};
     double lambda_up{10.0};
     double lambda_down{0.1};
@@ -19,11 +19,11 @@ struct LmOptions {
 };
 
 enum class LmReason : std::uint8_t {
-    kConverged = 0,   ///< the last accepted step lowered the cost by less than relative_decrease
-    kIterations,      ///< all iterations used; the best state is held
-    kNoProgress,      ///< no step lowered the cost; the start is held
-    kNotObservable,   ///< no lambda up to max_lambda made the system positive definite
-    kInvalidCost      ///< the cost at the start is not finite
+    kConverged = 0,  ///< the last accepted step lowered the cost by less than relative_decrease
+    kIterations,     ///< all iterations used; the best state is held
+    kNoProgress,     ///< no step lowered the cost; the start is held
+    kNotObservable,  ///< no lambda up to max_lambda made the system positive definite
+    kInvalidCost     ///< the cost at the start is not finite
 };
 
 struct LmReport {
@@ -77,9 +77,13 @@ template <class Problem>
             report.reason = LmReason::kConverged;
             break;
         }
-        if (k + 1 < options.iterations) { (void)problem.linearise(system); }
+        if (k + 1 < options.iterations) {
+            (void)problem.linearise(system);
+        }
     }
-    if (!solved) { report.reason = LmReason::kNotObservable; }
+    if (!solved) {
+        report.reason = LmReason::kNotObservable;
+    }
     return report;
 }
 

@@ -51,25 +51,32 @@ public:
     /// The same for the shared block.
     Status shared_covariance(Mat3& out);
 
-    /// g^T step and step^T diag(H) step of the last solve: the predicted decrease of 0.5 |r|^2 is
-    /// -0.5 (g^T step) + 0.5 lambda (step^T D step).
-    [[nodiscard]] double predicted_decrease(double lambda, const SolverStep& step) const;
-
 private:
-    // Storage and factorisation: normal_equations.cpp.
+    void reduce(double lambda);
+    [[nodiscard]] bool factor();
+    void substitute(std::array<double, kReducedSize>& x);
+    [[nodiscard]] double& B(int r, int c) { return B_[static_cast<std::size_t>(r * kReducedSize + c)]; }
+    [[nodiscard]] double& S(int r, int c) { return S_[static_cast<std::size_t>(r * kReducedSize + c)]; }
+    [[nodiscard]] Mat6x3& E(int p, int i) { return E_[static_cast<std::size_t>(p * kSolverFrames + i)]; }
+    [[nodiscard]] bool sees(int p, int i) const {
+        return ((static_cast<unsigned>(seen_[static_cast<std::size_t>(p)]) >> static_cast<unsigned>(i)) & 1U) != 0U;
+    }
+
     int frames_{0};
     int points_{0};
     bool shared_{false};
-    int size_{0};  // 6 frames + 3 shared
-    std::array<double, kReducedSize * kReducedSize> B_{};   // upper triangle, row-major
-    std::array<double, kReducedSize * kReducedSize> S_{};   // reduced matrix, then its factor
+    int size_{0};                                          // 6 frames + 3 shared
+    std::array<double, kReducedSize * kReducedSize> B_{};  // upper triangle, row by row
+    std::array<double, kReducedSize * kReducedSize> S_{};  // reduced matrix, then its factor
     std::array<double, kReducedSize> v_{};
+    std::array<double, kReducedSize> s_{};  // reduced right-hand side
+    std::array<double, kReducedSize> x_{};
     std::array<Mat3, kSolverPoints> C_{};
+    std::array<Mat3, kSolverPoints> C_inv_{};
     std::array<Vec3, kSolverPoints> w_{};
-    std::array<std::uint16_t, kSolverPoints> seen_{};       // bit i: frame i saw the point
-    std::array<Mat6x3, kSolverPoints * kSolverFrames> E_{};
-
-    Status reduce_and_factor(double lambda);
+    std::array<bool, kSolverPoints> usable_{};
+    std::array<std::uint16_t, kSolverPoints> seen_{};  // bit i: frame i saw the point
+    std::array<Mat6x3, static_cast<std::size_t>(kSolverPoints) * kSolverFrames> E_{};
 };
 
 }  // namespace semtrack

@@ -21,7 +21,7 @@ add_library(semtrack_core_options INTERFACE)
 target_compile_options(semtrack_core_options INTERFACE -fno-exceptions -fno-rtti -fno-threadsafe-statics)
 target_link_libraries(semtrack_core_options INTERFACE semtrack_determinism)
 
-# semtrack_layer(NAME DIR [DEPENDS layer...]): one directory of the core as an object library semtrack_NAME.
+# semtrack_layer(NAME DIR [DEPENDS layer...]): one directory of the core as a static library semtrack_NAME.
 # DEPENDS lists the layers below it; the gate tests/gates/layers checks the includes against the same direction.
 function(semtrack_layer name dir)
   cmake_parse_arguments(arg "" "" "DEPENDS" ${ARGN})
@@ -29,7 +29,7 @@ function(semtrack_layer name dir)
   set(has_code ${sources})
   list(FILTER has_code INCLUDE REGEX "\\.cpp$")
   if(has_code)
-    add_library(semtrack_${name} OBJECT ${sources})
+    add_library(semtrack_${name} STATIC ${sources})
     target_link_libraries(semtrack_${name} PRIVATE semtrack_core_options)
     set(scope PUBLIC)
     set_property(GLOBAL APPEND PROPERTY SEMTRACK_CORE_OBJECTS $<TARGET_OBJECTS:semtrack_${name}>)

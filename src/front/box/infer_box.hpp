@@ -1,0 +1,58 @@
+// 3D box inference from a 2D box and a viewpoint, paper Sect. 3.2, Eq. (1)-(2) [eq:prior], [eq:selection].
+//
+// Each edge says that one vertex lies in one plane through the camera, with a_e = (1, 0, -u) or (0, 1, -v) for an edge
+// at the normalised coordinate u or v:
+//   a_e . (p + R_c_l R_z(theta) C_e d) = 0
+// Linear in p and in (cos theta, sin theta). The left null vector of the four a_e removes p and leaves
+//   a cos(theta) + b sin(theta) + c = 0:  two roots, of which the viewpoint allows one.
+#ifndef SEMTRACK_FRONT_BOX_INFER_BOX_HPP
+#define SEMTRACK_FRONT_BOX_INFER_BOX_HPP
+
+#include "math/pose.hpp"
+#include "model/box_geometry.hpp"
+#include "semtrack/static_vector.hpp"
+#include "semtrack/status.hpp"
+#include "semtrack/types.hpp"
+
+namespace semtrack {
+
+struct BoxInferenceInput {
+    Box2d box{};            ///< px of `camera`
+    Viewpoint viewpoint{};  ///< -1, -1: all classes are tried
+    ObjectClass object_class{ObjectClass::kCar};
+    Vec3 size_m{Vec3::Ones()};  ///< length, width, height
+    PinholeCamera camera{};
+    Mat3 R_c_l{Mat3::Identity()};  ///< local-level frame (z up) to camera
+    int width{0};                  ///< of the image, px: an edge at its border is the border's, not the object's
+    int height{0};
+    bool has_theta{false};  ///< theta is known: three edges are enough
+    double theta{0};        ///< heading in L
+};
+
+struct BoxHypothesis {
+    Vec3 p_c{Vec3::Zero()};  ///< box centre in the camera frame
+    double theta{0};         ///< heading in L; meaningless for classes without heading
+    Viewpoint viewpoint{};   ///< the faces that this pose shows
+    unsigned edges{0};       ///< bit e: edge e was used
+    double residual_px{0};   ///< largest distance of a used edge from the reprojected box
+};
+
+inline constexpr int kMaxBoxHypotheses = 8;
+using BoxHypotheses = StaticVector<BoxHypothesis, kMaxBoxHypotheses>;
+
+inline constexpr double kBorder_px = 1.5;
+inline constexpr double kMaxInferredDepth_m = 200.0;
+
+/// Ranked, best first; one entry when the viewpoint is given. Accuracy on exact input 1e-9 m, 1e-9 rad.
+/// Four edges: closed form. Three: theta from the input, or the middle of the viewpoint's range of angles. Classes
+/// without heading: position from the middle of the box and the prior's height.
+/// kNotObservable: fewer edges, or no pose in front of the camera within kMaxInferredDepth_m; out is then empty.
+/// Bounded: at most 16 classes x 4 passes, no allocation.
+Status infer_box(const BoxInferenceInput& input, BoxHypotheses& out);
+
+/// Class that a continuous observation angle alpha = rotation_y - atan2(x, z) stands for, for an object at p_c.
+[[nodiscard]] Viewpoint viewpoint_from_alpha(double alpha_rad, const Vec3& p_c, const Vec3& size_m);
+
+}  // namespace semtrack
+
+#endif

@@ -10,6 +10,8 @@
 
 namespace semtrack {
 
+inline constexpr std::uint8_t kBackgroundOwner = 0;
+
 /// Row-major, stride = width. Values: 0 background, slot + 1 an object, kNoOwner nobody's.
 struct OwnerMask {
     int width{0};

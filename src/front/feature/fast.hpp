@@ -1,0 +1,57 @@
+// FAST-9 corners with score and non-maximum suppression, kept best-first per cell so that memory and cost stay bounded
+// whatever the image holds. Integers only.
+#ifndef SEMTRACK_FRONT_FEATURE_FAST_HPP
+#define SEMTRACK_FRONT_FEATURE_FAST_HPP
+
+#include <array>
+#include <cstdint>
+
+#include "semtrack/capacity.hpp"
+#include "semtrack/image_view.hpp"
+#include "semtrack/status.hpp"
+
+namespace semtrack {
+
+struct Corner {
+    std::int16_t x{0};
+    std::int16_t y{0};
+    std::uint8_t score{0};  ///< largest threshold at which it is still a corner
+};
+
+/// Cells of kCornerCell_px, each with its best corners. Ties go to the earlier raster position: the order is total.
+class CornerGrid {
+public:
+    static constexpr int kCornerCell_px = 16;
+    static constexpr int kPerCell = 6;
+    static constexpr int kColumns = (kMaxImageWidth + kCornerCell_px - 1) / kCornerCell_px;
+    static constexpr int kRows = (kMaxImageHeight + kCornerCell_px - 1) / kCornerCell_px;
+    static constexpr int kMaxCorners = kColumns * kRows * kPerCell;
+
+    void clear() { count_.fill(0); }
+    void add(const Corner& corner);
+    [[nodiscard]] int cells() const { return kColumns * kRows; }
+    [[nodiscard]] int count(int cell) const { return count_[static_cast<std::size_t>(cell)]; }
+    [[nodiscard]] const Corner& corner(int cell, int i) const {
+        return corners_[static_cast<std::size_t>(cell * kPerCell + i)];
+    }
+
+private:
+    std::array<std::uint8_t, static_cast<std::size_t>(kColumns) * kRows> count_{};
+    std::array<Corner, static_cast<std::size_t>(kMaxCorners)> corners_{};
+};
+
+class FastDetector {
+public:
+    /// Corners at least margin_px (3 or more) from the border: 9 contiguous of the 16 pixels on the circle of radius 3
+    /// are all brighter than the centre + threshold or all darker than the centre - threshold. 3x3 suppression.
+    /// kInvalidArgument: no image, or one beyond the capacity. Cost O(pixels).
+    Status detect(const ImageView& image, int threshold, int margin_px, CornerGrid& out);
+
+private:
+    void score_row(const ImageView& image, int y, int threshold, int margin_px, std::uint8_t* scores);
+    std::array<std::uint8_t, static_cast<std::size_t>(kMaxImageWidth) * 3> rows_{};  // scores of three rows
+};
+
+}  // namespace semtrack
+
+#endif

@@ -15,13 +15,13 @@ namespace semtrack {
 
 struct MatcherInput {
     ImageView left{};
-    ImageView right{};                        ///< may be empty: then nothing is stereo
+    ImageView right{};  ///< may be empty: then nothing is stereo
     const OwnerMask* mask_left{nullptr};
     const OwnerMask* mask_right{nullptr};
     const OwnerPriors* priors{nullptr};
     const Calibration* calibration{nullptr};
     std::uint32_t frame{0};
-    StageObserver* observer{nullptr};         ///< told of kExtract and kMatch; may be null
+    StageObserver* observer{nullptr};  ///< told of kExtract and kMatch; may be null
 };
 
 /// A feature that is alive, as last seen.
@@ -47,12 +47,16 @@ struct FeatureTable {
     /// First free slot of the owner at or after `from`; -1: none.
     [[nodiscard]] int free_slot(int owner, int from = 0) const {
         for (int s = from; s < feature_slots(owner); ++s) {
-            if (!slots[static_cast<std::size_t>(first_feature_slot(owner) + s)].live) { return s; }
+            if (!slots[static_cast<std::size_t>(first_feature_slot(owner) + s)].live) {
+                return s;
+            }
         }
         return -1;
     }
     void clear_owner(int owner) {
-        for (int s = 0; s < feature_slots(owner); ++s) { at(owner, s).live = false; }
+        for (int s = 0; s < feature_slots(owner); ++s) {
+            at(owner, s).live = false;
+        }
     }
 };
 

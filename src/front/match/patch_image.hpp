@@ -1,0 +1,51 @@
+// Half-size image with its local mean taken off: coarse searches see structure, not brightness. The two cameras of a
+// pair differ by 4-16 grey levels and exposure changes from frame to frame.
+#ifndef SEMTRACK_FRONT_MATCH_PATCH_IMAGE_HPP
+#define SEMTRACK_FRONT_MATCH_PATCH_IMAGE_HPP
+
+#include <array>
+#include <cstdint>
+
+#include "semtrack/capacity.hpp"
+#include "semtrack/image_view.hpp"
+
+namespace semtrack {
+
+class PatchImage {
+public:
+    static constexpr int kHalfWidth = kMaxImageWidth / 2;
+    static constexpr int kHalfHeight = kMaxImageHeight / 2;
+
+    /// 2x2 averages minus their mean over 9x9, about 128, clamped to 8 bits.
+    void build(const ImageView& image);
+    [[nodiscard]] int width() const { return width_; }
+    [[nodiscard]] int height() const { return height_; }
+    [[nodiscard]] const std::uint8_t* row(int y) const { return flat_.data() + y * kHalfWidth; }
+
+private:
+    int width_{0};
+    int height_{0};
+    std::array<std::uint8_t, static_cast<std::size_t>(kHalfWidth) * kHalfHeight> half_{};
+    std::array<std::uint8_t, static_cast<std::size_t>(kHalfWidth) * kHalfHeight> flat_{};
+    std::array<std::uint16_t, static_cast<std::size_t>(kHalfWidth)> column_{};
+};
+
+inline constexpr int kCoarse = 8;  ///< side of a coarse patch, half-size px
+using CoarsePatch = std::array<std::uint8_t, static_cast<std::size_t>(kCoarse) * kCoarse>;
+
+/// Top-left corner of the coarse patch about a full-resolution coordinate. A patch that was taken about u0 and is found
+/// again at corner c lies at u0 + 2 (c - coarse_corner(u0)), to a pixel.
+[[nodiscard]] inline int coarse_corner(float full) {
+    return static_cast<int>(full * 0.5F) - kCoarse / 2 + 1;
+}
+
+[[nodiscard]] inline bool coarse_inside(const PatchImage& image, int x, int y) {
+    return x >= 0 && y >= 0 && x + kCoarse <= image.width() && y + kCoarse <= image.height();
+}
+void copy_coarse(const PatchImage& image, int x, int y, CoarsePatch& out);
+/// Sum of absolute differences at a corner that is inside.
+[[nodiscard]] int coarse_distance(const CoarsePatch& patch, const PatchImage& image, int x, int y);
+
+}  // namespace semtrack
+
+#endif

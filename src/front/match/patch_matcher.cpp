@@ -1,0 +1,300 @@
+// Following features in time, and bookkeeping. Stereo is in patch_stereo.cpp.
+#include "front/match/patch_matcher.hpp"
+
+#include <cmath>
+
+#include "math/camera.hpp"
+
+namespace semtrack {
+
+namespace {
+
+constexpr int kFastThreshold = 10;
+constexpr int kBorder_px = 14;
+constexpr int kRadiusYoung = 10;  // half-size px: the owner's motion is not known yet
+constexpr int kRadius = 4;
+constexpr int kMaxCoarseDistance = kCoarse * kCoarse * 16;
+constexpr float kMaxShift_px = 3.0F;  // of the refinement: the coarse search is right to a pixel
+constexpr float kMinCorrelation = 0.80F;
+constexpr float kRenewCorrelation = 0.92F;
+constexpr std::uint16_t kRenewAge = 6;  // frames: never renewing loses features, every frame makes them drift
+constexpr float kMaxScale = 1.15F;
+constexpr double kFallbackDepth_m = 20.0;
+constexpr float kSigma_px = 0.25F;
+
+bool finite(const Pose& T) {
+    double sum = T.t(0) + T.t(1) + T.t(2);
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c) {
+            sum += T.R(r, c);
+        }
+    }
+    return std::isfinite(sum);
+}
+
+}  // namespace
+
+void PatchMatcher::reset() {
+    for (FeatureSlot& slot : table_.slots) {
+        slot.live = false;
+    }
+    table_.next_id = 1;
+    row_.reset();
+    first_ = true;
+}
+
+float PatchMatcher::depth_of(const MatcherInput& in, const FeatureSlot& slot) const {
+    if (!slot.stereo) {
+        return 0.0F;
+    }
+    const double d = disparity(*in.calibration, static_cast<double>(slot.u), static_cast<double>(slot.u_right));
+    return d > 0.5 ? static_cast<float>(depth_from_disparity(*in.calibration, d)) : 0.0F;
+}
+
+bool PatchMatcher::allowed(const MatcherInput& in, int owner, float u, float v) const {
+    const int x = static_cast<int>(u + 0.5F);
+    const int y = static_cast<int>(v + 0.5F);
+    if (x < kBorder_px || y < kBorder_px || x >= in.left.width - kBorder_px || y >= in.left.height - kBorder_px) {
+        return false;
+    }
+    const std::uint8_t here = in.mask_left->at(x, y);
+    return owner == kBackground ? here == kBackground : here == owner || here == kNoOwner || here == kBackground;
+}
+
+// Median depth of an owner's features: for those without a stereo match.
+double PatchMatcher::owner_depth(const MatcherInput& in, int owner) {
+    int n = 0;
+    for (int s = 0; s < feature_slots(owner); ++s) {
+        const FeatureSlot& slot = table_.at(owner, s);
+        const float z = slot.live ? depth_of(in, slot) : 0.0F;
+        if (!(z > 0.0F)) {
+            continue;
+        }
+        int k = n++;  // insertion keeps the list sorted; at most kMaxBackgroundFeatures
+        for (; k > 0 && depths_[static_cast<std::size_t>(k - 1)] > z; --k) {
+            depths_[static_cast<std::size_t>(k)] = depths_[static_cast<std::size_t>(k - 1)];
+        }
+        depths_[static_cast<std::size_t>(k)] = z;
+    }
+    return n > 0 ? static_cast<double>(depths_[static_cast<std::size_t>(n / 2)]) : kFallbackDepth_m;
+}
+
+bool PatchMatcher::search(const Appearance& a, float u, float v, int radius, Found& found) const {
+    const int x0 = static_cast<int>((u - a.coarse_du) * 0.5F + 0.5F);
+    const int y0 = static_cast<int>((v - a.coarse_dv) * 0.5F + 0.5F);
+    int best = kMaxCoarseDistance;
+    int best_x = 0;
+    int best_y = 0;
+    bool any = false;
+    for (int y = y0 - radius; y <= y0 + radius; ++y) {
+        for (int x = x0 - radius; x <= x0 + radius; ++x) {
+            if (!coarse_inside(left_half_, x, y)) {
+                continue;
+            }
+            const int d = coarse_distance(a.coarse, left_half_, x, y);
+            if (d < best) {
+                best = d;
+                best_x = x;
+                best_y = y;
+                any = true;
+            }
+        }
+    }
+    found.u = 2.0F * static_cast<float>(best_x) + a.coarse_du;
+    found.v = 2.0F * static_cast<float>(best_y) + a.coarse_dv;
+    return any;
+}
+
+bool PatchMatcher::follow_one(const MatcherInput& in, int owner, int s, double fallback_depth_m) {
+    FeatureSlot& slot = table_.at(owner, s);
+    Appearance& a = looks_[static_cast<std::size_t>(first_feature_slot(owner) + s)];
+    const OwnerPrior& prior = (*in.priors)[static_cast<std::size_t>(owner)];
+    const float measured = depth_of(in, slot);
+    const double z = measured > 0.0F ? static_cast<double>(measured) : fallback_depth_m;
+    const Pose T = finite(prior.T_cur_prev) ? prior.T_cur_prev : Pose{};
+    const Vec3 x_now =
+        T * (bearing(in.calibration->left, static_cast<double>(slot.u), static_cast<double>(slot.v)) * z);
+    if (!(x_now(2) > kMinDepth_m)) {
+        return false;
+    }
+    const Vec2 at = project(in.calibration->left, x_now);
+    if (!(at(0) > 0.0) || !(at(1) > 0.0) || !(at(0) < in.left.width) || !(at(1) < in.left.height)) {
+        return false;
+    }
+    Found found;
+    const int radius = slot.age == 0 || first_ ? kRadiusYoung : kRadius;
+    if (!search(a, static_cast<float>(at(0)), static_cast<float>(at(1)), radius, found)) {
+        return false;
+    }
+    float scale =
+        a.reference_depth_m > 0.0F && measured > 0.0F ? a.reference_depth_m / static_cast<float>(x_now(2)) : 1.0F;
+    scale = scale < 0.75F ? 0.75F : scale > 1.3F ? 1.3F : scale;
+    if (!template_.build(a.reference, scale) || !template_.align(in.left, kMaxShift_px, found.u, found.v, found.ncc) ||
+        found.ncc < kMinCorrelation || !allowed(in, owner, found.u, found.v)) {
+        return false;
+    }
+    FeatureMeasurement& m = now_[static_cast<std::size_t>(first_feature_slot(owner) + s)];
+    m = FeatureMeasurement{};
+    m.tracked = true;
+    m.previous_u = slot.u;
+    m.previous_v = slot.v;
+    m.previous_u_right = slot.u_right;
+    m.previous_stereo = slot.stereo;
+    slot.u = found.u;
+    slot.v = found.v;
+    ++slot.age;
+    ++a.age;
+    m.sigma_px = kSigma_px;
+    // The disparity that the motion predicts; none when the depth was only a guess.
+    const double d = in.calibration->left.fx * in.calibration->baseline_m / x_now(2);
+    const bool keep_scale = scale < kMaxScale && scale > 1.0F / kMaxScale;
+    float sigma = 0.0F;
+    const bool stereo = match_stereo(in, owner, slot, a, measured > 0.0F ? static_cast<float>(d) : -1.0F, sigma);
+    slot.stereo = stereo;
+    m.stereo = stereo;
+    m.sigma_right_px = sigma;
+    if (a.age >= kRenewAge || found.ncc < kRenewCorrelation || !keep_scale) {
+        remember(in, slot, a, stereo ? depth_of(in, slot) : measured > 0.0F ? static_cast<float>(x_now(2)) : 0.0F);
+    }
+    return true;
+}
+
+void PatchMatcher::remember(const MatcherInput& in, FeatureSlot& slot, Appearance& a, float depth_m) const {
+    if (!take_reference(in.left, slot.u, slot.v, a.reference)) {
+        return;
+    }
+    const int x = coarse_corner(slot.u);
+    const int y = coarse_corner(slot.v);
+    if (coarse_inside(left_half_, x, y)) {
+        copy_coarse(left_half_, x, y, a.coarse);
+    }
+    a.coarse_du = slot.u - 2.0F * static_cast<float>(x);
+    a.coarse_dv = slot.v - 2.0F * static_cast<float>(y);
+    a.reference_depth_m = depth_m;
+    a.age = 0;
+}
+
+void PatchMatcher::follow(const MatcherInput& in, int owner) {
+    const double fallback = owner_depth(in, owner);
+    for (int s = 0; s < feature_slots(owner); ++s) {
+        FeatureSlot& slot = table_.at(owner, s);
+        if (!slot.live) {
+            continue;
+        }
+        if (!follow_one(in, owner, s, fallback)) {
+            slot.live = false;
+            continue;
+        }
+        selector_.occupy(owner, slot.u, slot.v);
+    }
+}
+
+void PatchMatcher::add_new(const MatcherInput& in) {
+    FeatureBudget budget{};
+    for (int owner = 0; owner < kMaxOwners; ++owner) {
+        const OwnerPrior& prior = (*in.priors)[static_cast<std::size_t>(owner)];
+        int alive = 0;
+        for (int s = 0; s < feature_slots(owner); ++s) {
+            alive += table_.at(owner, s).live ? 1 : 0;
+        }
+        const int wanted = prior.budget < feature_slots(owner) ? prior.budget : feature_slots(owner);
+        budget[static_cast<std::size_t>(owner)] =
+            static_cast<std::int16_t>(prior.active && wanted > alive ? wanted - alive : 0);
+    }
+    if (fast_.detect(in.left, kFastThreshold, kBorder_px, corners_) != Status::kOk) {
+        return;
+    }
+    selector_.select(corners_, in.mask_left->view(), budget, selected_);
+    int owner = -1;
+    int next = 0;
+    for (const SelectedCorner& c : selected_) {
+        if (c.owner != owner) {
+            next = 0;
+        }
+        owner = c.owner;
+        const int s = table_.free_slot(owner, next);
+        if (s < 0) {
+            continue;
+        }
+        next = s + 1;
+        FeatureSlot& slot = table_.at(owner, s);
+        Appearance& a = looks_[static_cast<std::size_t>(first_feature_slot(owner) + s)];
+        slot.u = static_cast<float>(c.corner.x);
+        slot.v = static_cast<float>(c.corner.y);
+        slot.stereo = false;
+        slot.age = 0;
+        remember(in, slot, a, 0.0F);
+        if (!template_.build(a.reference, 1.0F)) {
+            continue;
+        }
+        slot.live = true;
+        slot.id = table_.next_id++;
+        FeatureMeasurement& m = now_[static_cast<std::size_t>(first_feature_slot(owner) + s)];
+        m = FeatureMeasurement{};
+        m.sigma_px = kSigma_px;
+        float sigma = 0.0F;
+        slot.stereo = match_stereo(in, owner, slot, a, -1.0F, sigma);
+        m.stereo = slot.stereo;
+        m.sigma_right_px = sigma;
+        a.reference_depth_m = depth_of(in, slot);
+    }
+}
+
+void PatchMatcher::emit(int owner, int s, FrameFeatures& out) {
+    const FeatureSlot& slot = table_.at(owner, s);
+    FeatureMeasurement m = now_[static_cast<std::size_t>(first_feature_slot(owner) + s)];
+    m.id = slot.id;
+    m.slot = static_cast<std::int16_t>(s);
+    m.owner = static_cast<std::uint8_t>(owner);
+    m.age = slot.age;
+    m.u = slot.u;
+    m.v = slot.v;
+    m.u_right = slot.u_right;
+    m.v_right = slot.v_right;
+    (void)out.try_push_back(m);
+}
+
+Status PatchMatcher::process(const MatcherInput& in, FrameFeatures& out) {
+    out.clear();
+    if (in.left.empty() || in.mask_left == nullptr || in.priors == nullptr || in.calibration == nullptr ||
+        in.left.width > kMaxImageWidth || in.left.height > kMaxImageHeight || in.mask_left->width != in.left.width ||
+        in.mask_left->height != in.left.height ||
+        (!in.right.empty() && (in.right.width != in.left.width || in.right.height != in.left.height))) {
+        return Status::kInvalidArgument;
+    }
+    if (in.observer != nullptr) {
+        in.observer->begin(Stage::kMatch);
+    }
+    left_half_.build(in.left);
+    if (!in.right.empty()) {
+        right_half_.build(in.right);
+    }
+    selector_.begin(in.left.width, in.left.height);
+    for (int owner = 0; owner < kMaxOwners; ++owner) {
+        if ((*in.priors)[static_cast<std::size_t>(owner)].active) {
+            follow(in, owner);
+        } else {
+            table_.clear_owner(owner);
+        }
+    }
+    if (in.observer != nullptr) {
+        in.observer->end(Stage::kMatch);
+        in.observer->begin(Stage::kExtract);
+    }
+    add_new(in);
+    row_.update();
+    for (int owner = 0; owner < kMaxOwners; ++owner) {
+        for (int s = 0; s < feature_slots(owner); ++s) {
+            if (table_.at(owner, s).live) {
+                emit(owner, s, out);
+            }
+        }
+    }
+    if (in.observer != nullptr) {
+        in.observer->end(Stage::kExtract);
+    }
+    first_ = false;
+    return Status::kOk;
+}
+
+}  // namespace semtrack

@@ -1,0 +1,76 @@
+// Ego-motion: a live pose per frame from a sliding window of keyframes on the background (paper Sect. 5.1).
+// W_c, the world of this estimator, is the first camera frame. The published pose is never revised; the history is.
+#ifndef SEMTRACK_ESTIMATE_EGO_EGO_ESTIMATOR_HPP
+#define SEMTRACK_ESTIMATE_EGO_EGO_ESTIMATOR_HPP
+
+#include "estimate/ego/ego_problem.hpp"
+#include "estimate/ego/pose_tracker.hpp"
+#include "estimate/solver/levenberg_marquardt.hpp"
+#include "model/ego_history.hpp"
+#include "model/feature.hpp"
+#include "semtrack/status.hpp"
+#include "semtrack/types.hpp"
+
+namespace semtrack {
+
+struct EgoInput {
+    std::uint32_t frame{0};  ///< grows by one every cycle, from 1
+    std::int64_t time_us{0};
+    const FrameFeatures* features{nullptr};  ///< rows with owner 0 are used
+    bool has_images{false};
+    const VehicleMotion* motion{nullptr};
+    const Pose* given_T_w_c{nullptr};  ///< pose known from outside: taken as it is
+};
+
+struct EgoResult {
+    EgoStatus status{EgoStatus::kStart};
+    Pose T_w_c{};
+    Pose T_prev_cur{};  ///< motion since the last frame, in the camera
+    double dt_s{0};
+    Mat6 covariance{Mat6::Zero()};         ///< of T_w_c (translation, rotation), perturbed in the current camera
+    Mat6 motion_covariance{Mat6::Zero()};  ///< of T_prev_cur, likewise
+    int features{0};                       ///< matched with an earlier frame
+    int inliers{0};
+    StaticVector<std::int16_t, kMaxBackgroundFeatures> outliers{};  ///< slots that the estimate refused
+};
+
+class EgoEstimator {
+public:
+    void init(const Calibration& calibration);
+    /// Motion to expect until time_us, as T_cur_prev: a point in the last camera frame -> in the coming one. From the
+    /// vehicle's sensors when given, else the last motion scaled by the time.
+    [[nodiscard]] Pose predicted_motion(std::int64_t time_us, const VehicleMotion* motion) const;
+    /// kNotConverged: the images did not give a pose and it was predicted (status kPredicted). Cost: a pose fit of 14
+    /// and a window of 5 iterations.
+    Status process(const EgoInput& input, NormalEquations& system, SolverStep& step, EgoResult& out);
+    [[nodiscard]] const EgoHistory& history() const { return history_; }
+
+private:
+    void push_frame(const EgoInput& input, const Pose& T_c_w);
+    void drop_frame(int index);
+    void take_features(const FrameFeatures& features);
+    void give_birth();
+    void solve_window(NormalEquations& system, SolverStep& step);
+    void cull(EgoResult& out);
+    [[nodiscard]] bool needs_keyframe() const;
+    void finish(const EgoInput& input, EgoStatus status, const Pose& T_w_c, const Mat6& motion_covariance,
+                EgoResult& out);
+
+    Calibration calibration_{};
+    Pose T_v_c_{};
+    EgoWindow window_{};
+    EgoProblem problem_{};
+    EgoHistory history_{};
+    bool started_{false};
+    std::int64_t time_us_{0};
+    Pose T_w_c_{};
+    Pose T_cur_prev_{};  // last motion
+    double dt_s_{0};     // ... and the time it took
+    Mat6 covariance_{Mat6::Zero()};
+    std::uint32_t last_keyframe_{0};
+    int keyframe_landmarks_{0};
+};
+
+}  // namespace semtrack
+
+#endif

@@ -1,0 +1,40 @@
+// Rows of numbers in text files: what is accepted and how it is refused (docs/formats.md). CRLF, tabs, blanks at row
+// ends, a missing last newline and blank last lines are fine; numbers are parsed whole and without the locale.
+#ifndef SEMTRACK_SIL_KITTI_TEXT_FILE_HPP
+#define SEMTRACK_SIL_KITTI_TEXT_FILE_HPP
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace semtrack::sil {
+
+struct TextRow {
+    int line{0};  ///< from 1
+    std::vector<std::string_view> words;
+};
+
+class TextFile {
+public:
+    /// Throws InputError when it cannot be read or starts with a byte-order mark.
+    /// counted: the rows' numbers mean something (times, poses), so a blank line between rows is refused.
+    TextFile(const std::filesystem::path& path, bool counted);
+    [[nodiscard]] const std::vector<TextRow>& rows() const { return rows_; }
+
+    /// Whole, finite number; otherwise InputError "FILE:LINE: ...".
+    [[nodiscard]] double number(const TextRow& row, std::size_t word) const;
+    [[nodiscard]] int integer(const TextRow& row, std::size_t word) const;
+    void require_words(const TextRow& row, std::size_t least, std::size_t most) const;
+    [[noreturn]] void refuse(const TextRow& row, const std::string& what) const;
+    [[noreturn]] void refuse_line(int line, const std::string& what) const;
+
+private:
+    std::string name_;
+    std::string text_;
+    std::vector<TextRow> rows_;
+};
+
+}  // namespace semtrack::sil
+
+#endif

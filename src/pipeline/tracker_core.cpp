@@ -60,8 +60,7 @@ Status TrackerCore::init(const Config& config, const Calibration& calibration, F
     objects_.init(calibration, config);
     tracks_.reset();
     patch_.reset();
-    orb_.reset();
-    orb_.set_extractor(extractor != nullptr ? extractor : &native_orb_);
+    extractor_ = extractor;
     health_ = Health{};
     ready_ = true;
     return Status::kOk;

@@ -9,9 +9,7 @@
 #include "estimate/object/object_estimator.hpp"
 #include "front/associate/associate.hpp"
 #include "front/box/infer_box.hpp"
-#include "front/feature/orb_extractor.hpp"
 #include "front/mask/owner_mask_builder.hpp"
-#include "front/match/orb_matcher.hpp"
 #include "front/match/patch_matcher.hpp"
 #include "front/ransac/reject.hpp"
 #include "pipeline/level.hpp"
@@ -96,8 +94,6 @@ private:
     ObjectEstimator objects_{};
     TrackTable tracks_{};
     PatchMatcher patch_{};
-    OrbExtractor native_orb_{};
-    OrbMatcher orb_{};
     OwnerMaskBuilder mask_builder_{};
     OwnerMask mask_left_{};
     OwnerMask mask_right_{};
@@ -107,11 +103,12 @@ private:
     ObjectFrame new_frame_{};
     DetectionList usable_{};
     StaticVector<TrackAtFrame, kMaxObjects> candidates_{};
-    StaticVector<TrackBox, kMaxObjects> boxes_{};
+    TrackBoxes boxes_{};
+    Associator associator_{};
     Assignment assignment_{};
-    StaticVector<MaskItem, kMaxObjects> mask_items_left_{};
-    StaticVector<MaskItem, kMaxObjects> mask_items_right_{};
-    StaticVector<MaskResult, kMaxObjects> mask_results_{};
+    MaskItems mask_items_left_{};
+    MaskItems mask_items_right_{};
+    MaskResults mask_results_{};
     ObjectSolveReport solve_report_{};
     NormalEquations system_{};
     SolverStep step_{};

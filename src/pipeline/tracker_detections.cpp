@@ -194,7 +194,7 @@ void TrackerCore::take_list(const DetectionList& list, std::uint32_t frame) {
         (void)boxes_.try_push_back(box);
         (void)candidates_.try_push_back({s, index});
     }
-    associate(boxes_, usable_, assignment_);
+    associator_.run(boxes_, usable_, assignment_);
     for (int t = 0; t < candidates_.size(); ++t) {
         Track& track = tracks_[candidates_[t].slot];
         const int item = assignment_.detection_of_track[static_cast<std::size_t>(t)];

@@ -9,7 +9,9 @@ namespace semtrack::sil::world {
 
 namespace {
 
-float larger(float a, float b) { return a > b ? a : b; }
+float larger(float a, float b) {
+    return a > b ? a : b;
+}
 
 float plain(const Surface& f, const SurfacePoint& at) {
     return f.tone * (1.0F + 0.16F * octaves2(at.s, at.t, larger(at.fs, at.ft), {0.4F, 6, 0.9F}, f.seed));
@@ -50,10 +52,11 @@ float repairs(const Surface& f, const SurfacePoint& at) {
 
 float asphalt(const Surface& f, const SurfacePoint& at) {
     const float foot = larger(at.fs, at.ft);
-    float grain = 0.10F * octaves2(at.s, at.t, foot, {2.4F, 2, 0.8F}, f.seed);
-    grain += 0.15F * octaves2(at.s, at.t, foot, {0.5F, 6, 0.97F}, f.seed + 1U);
+    float grain = 0.07F * octaves2(at.s, at.t, foot, {2.0F, 3, 0.8F}, f.seed);
+    grain += 0.17F * octaves2(at.s, at.t, foot, {0.14F, 5, 0.97F}, f.seed + 1U);
     // Cracks: zero line of a smooth noise, a few centimetres wide.
-    const float n = noise2(at.s * 0.45F, at.t * 0.45F, f.seed + 5U) + 0.12F * noise2(at.s * 2.3F, at.t * 2.3F, f.seed + 6U) - 0.56F;
+    const float n =
+        noise2(at.s * 0.45F, at.t * 0.45F, f.seed + 5U) + 0.12F * noise2(at.s * 2.3F, at.t * 2.3F, f.seed + 6U) - 0.56F;
     const float crack = cover(n, 0.05F + 0.6F * foot, -0.008F, 0.008F);
     float r = f.tone * (1.0F + grain) * repairs(f, at) * (1.0F - 0.7F * crack);
     const float paint = lane_marks(f, at);
@@ -109,7 +112,8 @@ float window(const SurfacePoint& at, float wall, std::uint32_t h) {
     const float outer = cover(at.s, at.fs, -0.09F, kWide + 0.09F) * cover(at.t, at.ft, -0.09F, kHigh + 0.09F);
     const float sill = cover(at.s, at.fs, -0.15F, kWide + 0.15F) * cover(at.t, at.ft, -0.2F, -0.09F);
     const float frame = cover(at.s, at.fs, 0.0F, kWide) * cover(at.t, at.ft, 0.0F, kHigh);
-    float pane = cover(at.s, at.fs, 0.07F, 0.5F * kWide - 0.03F) + cover(at.s, at.fs, 0.5F * kWide + 0.03F, kWide - 0.07F);
+    float pane =
+        cover(at.s, at.fs, 0.07F, 0.5F * kWide - 0.03F) + cover(at.s, at.fs, 0.5F * kWide + 0.03F, kWide - 0.07F);
     pane *= cover(at.t, at.ft, 0.07F, 0.95F) + cover(at.t, at.ft, 1.0F, kHigh - 0.07F);
     const float foot = larger(at.fs, at.ft);
     float glass = 0.10F + 0.07F * octaves2(at.s, at.t, foot, {0.5F, 4, 0.8F}, h);
@@ -153,10 +157,12 @@ float facade(const Surface& f, const SurfacePoint& at) {
         wall = brick(at, 0.42F, f.seed);
     } else {
         const float stains = octaves2(at.s, 0.35F * at.t, foot, {3.0F, 3, 0.8F}, f.seed);
-        const float grain = octaves2(at.s, at.t, foot, {0.35F, 6, 0.97F}, f.seed + 1U);
+        const float grain = octaves2(at.s, at.t, foot, {0.12F, 5, 0.97F}, f.seed + 1U);
         wall = f.tone * (1.0F + 0.07F * stains + 0.085F * grain);
     }
-    if (f.p[3] > 1.5F) { return window({at.s - 0.35F, at.t - 0.08F, at.fs, at.ft}, wall, f.seed); }
+    if (f.p[3] > 1.5F) {
+        return window({at.s - 0.35F, at.t - 0.08F, at.fs, at.ft}, wall, f.seed);
+    }
     const float plinth = 0.35F + 0.5F * unit(hash(f.seed, 3U));
     const float stone = 0.3F * (1.0F + 0.2F * octaves2(at.s, at.t, foot, {0.3F, 5, 0.9F}, f.seed + 4U));
     wall = blend(wall, stone, cover(at.t, at.ft, -1.0F, plinth));
@@ -164,13 +170,19 @@ float facade(const Surface& f, const SurfacePoint& at) {
     const float margin = 0.5F * (length - static_cast<float>(columns) * spacing);
     const int i = floor_int((at.s - margin) / spacing);
     const int storey = floor_int((at.t - 0.15F) / 2.75F);
-    if (i < 0 || i >= columns || storey < 0) { return wall; }
+    if (i < 0 || i >= columns || storey < 0) {
+        return wall;
+    }
     const float s = at.s - margin - static_cast<float>(i) * spacing - 0.5F * (spacing - 1.1F);
     const float t = at.t - 0.15F - static_cast<float>(storey) * 2.75F;
     const std::uint32_t h = hash(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(storey), f.seed);
     const int door_column = static_cast<int>(f.seed % static_cast<std::uint32_t>(columns > 0 ? columns : 1));
-    if (storey == 0 && i == door_column) { return door({s, at.t - 0.15F, at.fs, at.ft}, wall, h); }
-    if (static_cast<float>(storey) * 2.75F + 2.6F > eaves) { return wall; }
+    if (storey == 0 && i == door_column) {
+        return door({s, at.t - 0.15F, at.fs, at.ft}, wall, h);
+    }
+    if (static_cast<float>(storey) * 2.75F + 2.6F > eaves) {
+        return wall;
+    }
     return window({s, t - 0.95F, at.fs, at.ft}, wall, (h & ~0x78U) | (f.seed & 0x78U));
 }
 
@@ -188,8 +200,8 @@ float roof(const Surface& f, const SurfacePoint& at) {
 }
 
 float leaves(float n, float tone) {
-    const float r = tone * (1.0F + 0.55F * n);
-    return r < 0.03F ? 0.03F : r;
+    const float light = 0.5F + 0.75F * n;  // a leaf is lit or it is dark
+    return tone * (0.2F + 1.6F * (light < 0.0F ? 0.0F : (light > 1.0F ? 1.0F : light)));
 }
 
 float sign(const Surface& f, const SurfacePoint& at) {
@@ -200,6 +212,26 @@ float sign(const Surface& f, const SurfacePoint& at) {
     const float bar = cover(at.s, at.fs, -0.14F, 0.14F) * cover(t, at.ft, -0.04F, 0.04F);
     const float mark = (f.seed & 1U) != 0U ? bar : cover(at.s, at.fs, -0.04F, 0.04F) * cover(t, at.ft, -0.13F, 0.13F);
     return blend(blend(f.tone, 0.25F, rim), 0.08F, mark);
+}
+
+// A point of a round surface on the side of a cube around it: noise in the plane costs half of noise in space.
+struct CubePoint {
+    float s;
+    float t;
+    std::uint32_t side;
+};
+
+CubePoint on_cube(float x, float y, float z) {
+    const float ax = x < 0.0F ? -x : x;
+    const float ay = y < 0.0F ? -y : y;
+    const float az = z < 0.0F ? -z : z;
+    if (az >= ax && az >= ay) {
+        return {x, y, z < 0.0F ? 11U : 12U};
+    }
+    if (ay >= ax) {
+        return {x, z, y < 0.0F ? 13U : 14U};
+    }
+    return {y, z, x < 0.0F ? 15U : 16U};
 }
 
 float cloth(const Surface& f, const SurfacePoint& at) {
@@ -213,33 +245,45 @@ float cloth(const Surface& f, const SurfacePoint& at) {
 float reflectance(const Surface& surface, const SurfacePoint& at) {
     const float foot = larger(at.fs, at.ft);
     switch (surface.material) {
-        case Material::kAsphalt: return asphalt(surface, at);
-        case Material::kPaving: return paving(surface, at);
-        case Material::kFacade: return facade(surface, at);
-        case Material::kRoof: return roof(surface, at);
-        case Material::kBrick: return brick(at, surface.tone, surface.seed);
+        case Material::kAsphalt:
+            return asphalt(surface, at);
+        case Material::kPaving:
+            return paving(surface, at);
+        case Material::kFacade:
+            return facade(surface, at);
+        case Material::kRoof:
+            return roof(surface, at);
+        case Material::kBrick:
+            return brick(at, surface.tone, surface.seed);
         case Material::kLeaves:
-            return leaves(octaves2(at.s, at.t, foot, {0.8F, 7, 0.97F}, surface.seed), surface.tone);
+            return leaves(octaves2(at.s, at.t, foot, {0.22F, 5, 0.97F}, surface.seed), surface.tone);
         case Material::kBark:
-            return surface.tone * (1.0F + 0.4F * octaves2(at.s * 3.0F, at.t, 3.0F * foot, {0.3F, 5, 0.9F}, surface.seed));
-        case Material::kSign: return sign(surface, at);
-        case Material::kCloth: return cloth(surface, at);
+            return surface.tone *
+                   (1.0F + 0.4F * octaves2(at.s * 3.0F, at.t, 3.0F * foot, {0.3F, 5, 0.9F}, surface.seed));
+        case Material::kSign:
+            return sign(surface, at);
+        case Material::kCloth:
+            return cloth(surface, at);
         case Material::kPlain:
-        case Material::kSkin: return plain(surface, at);
-        default: return vehicle_reflectance(surface, at);
+        case Material::kSkin:
+            return plain(surface, at);
+        default:
+            return vehicle_reflectance(surface, at);
     }
 }
 
 float reflectance(const Surface& surface, float x, float y, float z, float footprint) {
+    const CubePoint m = on_cube(x, y, z);
     if (surface.material == Material::kLeaves) {
-        return leaves(octaves3(x, y, z, footprint, {0.8F, 5, 0.97F}, surface.seed), surface.tone);
+        return leaves(octaves2(m.s, m.t, footprint, {0.4F, 5, 0.95F}, surface.seed + m.side), surface.tone);
     }
-    return surface.tone * (1.0F + 0.35F * octaves3(x, y, z, footprint, {0.12F, 3, 0.9F}, surface.seed));
+    return surface.tone * (1.0F + 0.35F * octaves2(m.s, m.t, footprint, {0.12F, 3, 0.9F}, surface.seed + m.side));
 }
 
 bool leaf_at(const Surface& surface, float x, float y, float z, float footprint, float rim) {
-    const float n = octaves3(x, y, z, 0.5F * footprint, {0.5F, 3, 0.8F}, surface.seed + 91U);
-    return n > 2.2F * rim * rim - 1.5F;
+    const CubePoint m = on_cube(x, y, z);
+    const float n = octaves2(m.s, m.t, 0.5F * footprint, {0.4F, 3, 0.9F}, surface.seed + 91U + m.side);
+    return n > 1.9F * rim - 1.0F;
 }
 
 float sky(double x, double y, double z, float footprint) {
@@ -248,8 +292,8 @@ float sky(double x, double y, double z, float footprint) {
     float r = 0.93F - 0.28F * (up < 0.0F ? 0.0F : up);
     if (up > 0.02F) {  // clouds on a plane overhead
         const float k = 1.0F / (up + 0.08F);
-        const float cloud = octaves2(static_cast<float>(x / norm) * k, static_cast<float>(z / norm) * k, footprint * k * k,
-                                     {0.9F, 5, 0.6F}, 4242U);
+        const float cloud = octaves2(static_cast<float>(x / norm) * k, static_cast<float>(z / norm) * k,
+                                     footprint * k * k, {0.9F, 5, 0.6F}, 4242U);
         r += 0.06F * cloud;
     }
     return r;

@@ -8,18 +8,22 @@ namespace semtrack::sil::world {
 
 namespace {
 
-float larger(float a, float b) { return a > b ? a : b; }
+float larger(float a, float b) {
+    return a > b ? a : b;
+}
 
 // A painted panel: the surroundings reflected as broad streaks that stick to the panel, dirt, fine speckle.
 float paint(const Surface& f, const SurfacePoint& at) {
     const float foot = larger(at.fs, at.ft);
-    const float streaks = octaves2(0.6F * at.s, 2.5F * at.t, foot, {0.6F, 4, 0.75F}, f.seed);
-    const float dirt = octaves2(at.s, at.t, foot, {0.12F, 4, 0.95F}, f.seed + 1U);
-    const float shine = 0.05F + 0.10F * f.tone;
+    const float streaks = octaves2(0.5F * at.s, 2.5F * at.t, foot, {0.7F, 3, 0.6F}, f.seed);
+    const float dirt = octaves2(at.s, at.t, foot, {0.06F, 4, 0.97F}, f.seed + 1U);
+    const float shine = 0.025F + 0.07F * f.tone;
     return f.tone * (1.0F + 0.10F * dirt) + shine * streaks + 0.03F * dirt;
 }
 
-float seam(float x, float f, float at) { return cover(x, f, at - 0.008F, at + 0.008F); }
+float seam(float x, float f, float at) {
+    return cover(x, f, at - 0.008F, at + 0.008F);
+}
 
 float car_side(const Surface& f, const SurfacePoint& at) {
     float r = paint(f, at);
@@ -29,13 +33,15 @@ float car_side(const Surface& f, const SurfacePoint& at) {
     const float belt = f.p[3];
     const float foot = larger(at.fs, at.ft);
     const float low = cover(at.t, at.ft, 0.0F, 0.22F * belt + 0.1F);
-    r = blend(r, 0.06F, 0.8F * low);  // sill in shade
+    r = blend(r, 0.06F, 0.8F * low);                                          // sill in shade
     r = blend(r, 0.55F * r, cover(at.t, at.ft, 0.58F * belt, 0.61F * belt));  // side strip
     const float doors = cover(at.t, at.ft, 0.3F * belt, belt + 0.1F);
     const float middle = 0.5F * (front + rear);
-    const float lines = seam(at.s, at.fs, middle + 0.08F) + seam(at.s, at.fs, front - 0.45F) + seam(at.s, at.fs, rear + 0.42F);
+    const float lines =
+        seam(at.s, at.fs, middle + 0.08F) + seam(at.s, at.fs, front - 0.45F) + seam(at.s, at.fs, rear + 0.42F);
     r = blend(r, 0.03F, 0.9F * (lines > 1.0F ? 1.0F : lines) * doors);
-    const float handle = cover(at.s, at.fs, middle + 0.16F, middle + 0.36F) + cover(at.s, at.fs, rear + 0.5F, rear + 0.7F);
+    const float handle =
+        cover(at.s, at.fs, middle + 0.16F, middle + 0.36F) + cover(at.s, at.fs, rear + 0.5F, rear + 0.7F);
     r = blend(r, f.tone > 0.4F ? 0.12F : 0.7F, handle * cover(at.t, at.ft, 0.78F * belt, 0.83F * belt));
     for (const float axle : {front, rear}) {  // wheel arches
         const float ds = at.s - axle;
@@ -50,7 +56,9 @@ float car_side(const Surface& f, const SurfacePoint& at) {
 // Characters as a hashed grid of strokes: 8 columns of 3 x 5 dots.
 float plate(const SurfacePoint& at, float z, std::uint32_t seed) {
     const float face = cover(at.s, at.fs, -0.26F, 0.26F) * cover(at.t, at.ft, z - 0.055F, z + 0.055F);
-    if (face <= 0.0F) { return -1.0F; }
+    if (face <= 0.0F) {
+        return -1.0F;
+    }
     const int i = floor_int((at.s + 0.26F) / 0.0163F);
     const int j = floor_int((at.t - z + 0.055F) / 0.0183F);
     const bool dot = (i % 4) != 3 && j > 0 && j < 5 &&
@@ -83,7 +91,9 @@ float car_end(const Surface& f, const SurfacePoint& at, bool is_front) {
         r = blend(r, 0.03F, seam(at.t, at.ft, 0.6F * belt) * cover(y, at.fs, 0.0F, half - 0.2F));
     }
     const float number = plate(at, is_front ? 0.52F * belt : 0.78F * belt, f.seed);
-    if (number >= 0.0F) { r = number > 0.1F ? number : 0.1F; }
+    if (number >= 0.0F) {
+        r = number > 0.1F ? number : 0.1F;
+    }
     return r;
 }
 
@@ -109,7 +119,7 @@ float glass_side(const Surface& f, const SurfacePoint& at) {
                  cover(at.s, at.fs, 0.055F * length, to);
     pane *= cover(at.t, at.ft, belt + 0.03F, top - 0.1F);
     float glass = 0.07F + 0.16F * up * unit(hash(f.seed, 2U));
-    glass += 0.06F * octaves2(at.s + 0.4F * at.t, at.t, foot, {0.5F, 5, 0.85F}, f.seed + 3U);
+    glass += 0.035F * octaves2(at.s + 0.4F * at.t, at.t, foot, {0.5F, 6, 0.9F}, f.seed + 3U);
     return blend(frame, glass, pane > 1.0F ? 1.0F : pane);
 }
 
@@ -124,7 +134,7 @@ float glass_end(const Surface& f, const SurfacePoint& at) {
     const float edge = half - 0.13F - 0.14F * up;
     const float pane = cover(y, at.fs, -1.0F, edge) * cover(at.t, at.ft, belt + 0.02F, top - 0.05F);
     float glass = 0.09F + 0.22F * up * up;
-    glass += 0.06F * octaves2(at.s, at.t, foot, {0.5F, 5, 0.85F}, f.seed + 5U);
+    glass += 0.035F * octaves2(at.s, at.t, foot, {0.5F, 6, 0.9F}, f.seed + 5U);
     // Head rests and the mirror through the glass.
     const float seats = cover(y, at.fs, 0.22F, 0.5F) * cover(at.t, at.ft, belt, belt + 0.55F * (top - belt));
     glass = blend(glass, 0.03F, 0.7F * seats);
@@ -165,7 +175,9 @@ float cargo(const Surface& f, const SurfacePoint& at) {
         const int j = floor_int((at.t - 0.55F * f.p[1]) / 0.16F);
         const bool dot = hash(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), f.seed) % 5U < 2U;
         const float in = cover_periodic(at.s, at.fs, 0.11F, 0.0F, 0.1F);
-        if (dot) { r = blend(r, 0.12F, in); }
+        if (dot) {
+            r = blend(r, 0.12F, in);
+        }
     }
     r = blend(r, 0.1F, cover(z, at.ft / f.p[1], 0.28F, 0.335F));
     return r;
@@ -175,15 +187,24 @@ float cargo(const Surface& f, const SurfacePoint& at) {
 
 float vehicle_reflectance(const Surface& surface, const SurfacePoint& at) {
     switch (surface.material) {
-        case Material::kCarSide: return car_side(surface, at);
-        case Material::kCarFront: return car_end(surface, at, true);
-        case Material::kCarRear: return car_end(surface, at, false);
-        case Material::kCarTop: return car_top(surface, at);
-        case Material::kGlassSide: return glass_side(surface, at);
-        case Material::kGlassEnd: return glass_end(surface, at);
-        case Material::kWheel: return wheel(surface, at);
-        case Material::kCargo: return cargo(surface, at);
-        default: return surface.tone;
+        case Material::kCarSide:
+            return car_side(surface, at);
+        case Material::kCarFront:
+            return car_end(surface, at, true);
+        case Material::kCarRear:
+            return car_end(surface, at, false);
+        case Material::kCarTop:
+            return car_top(surface, at);
+        case Material::kGlassSide:
+            return glass_side(surface, at);
+        case Material::kGlassEnd:
+            return glass_end(surface, at);
+        case Material::kWheel:
+            return wheel(surface, at);
+        case Material::kCargo:
+            return cargo(surface, at);
+        default:
+            return surface.tone;
     }
 }
 

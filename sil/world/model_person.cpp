@@ -8,7 +8,9 @@ namespace semtrack::sil::world {
 
 namespace {
 
-Surface cloth(float tone, std::uint32_t seed) { return {Material::kCloth, tone, seed, {}}; }
+Surface cloth(float tone, std::uint32_t seed) {
+    return {Material::kCloth, tone, seed, {}};
+}
 
 // Length, width and height of the outline of the pieces.
 void outline(const Pieces& pieces, Vec3& lo, Vec3& hi) {
@@ -29,7 +31,9 @@ void settle(Pieces& pieces) {
     Vec3 hi;
     outline(pieces, lo, hi);
     const Pose shift{Mat3::Identity(), Vec3(-0.5 * (lo(0) + hi(0)), -0.5 * (lo(1) + hi(1)), -lo(2))};
-    for (Piece& p : pieces) { p = transformed(p, shift); }
+    for (Piece& p : pieces) {
+        p = transformed(p, shift);
+    }
 }
 
 void add_wheel(double x, double radius, const Look& look, Pieces& out) {
@@ -50,9 +54,10 @@ Pieces make_pedestrian(const Vec3& size, const Look& look, double gait) {
     for (const double side : {1.0, -1.0}) {
         const double foot = side * swing * stride;
         const double y = side * 0.05 * h;
-        out.push_back(make_rod(Vec3(0.0, y, hip), Vec3(0.6 * foot, y, 0.26 * h), 0.048 * h, 8, cloth(trousers, look.seed)));
         out.push_back(
-            make_rod(Vec3(0.6 * foot, y, 0.27 * h), Vec3(foot - 0.03, y, 0.04), 0.036 * h, 8, cloth(trousers, look.seed)));
+            make_rod(Vec3(0.0, y, hip), Vec3(0.6 * foot, y, 0.26 * h), 0.048 * h, 8, cloth(trousers, look.seed)));
+        out.push_back(make_rod(Vec3(0.6 * foot, y, 0.27 * h), Vec3(foot - 0.03, y, 0.04), 0.036 * h, 8,
+                               cloth(trousers, look.seed)));
         out.push_back(make_box(Vec3(foot - 0.08, y - 0.045, 0.0), Vec3(foot + 0.12, y + 0.045, 0.07),
                                Surface{Material::kPlain, 0.06F, look.seed, {}}));
         const double hand = -side * swing * 0.6 * stride;
@@ -63,14 +68,17 @@ Pieces make_pedestrian(const Vec3& size, const Look& look, double gait) {
                                cloth(look.tone, look.seed + 1U)));
     }
     Prism torso;
-    torso.profile = {{-0.11, 0.47 * h}, {0.11, 0.47 * h}, {0.13, 0.70 * h}, {0.08, 0.83 * h}, {-0.08, 0.83 * h}, {-0.12, 0.72 * h}};
+    torso.profile = {{-0.11, 0.47 * h}, {0.11, 0.47 * h},  {0.13, 0.70 * h},
+                     {0.08, 0.83 * h},  {-0.08, 0.83 * h}, {-0.12, 0.72 * h}};
     torso.half_low = 0.5 * size(1) - 0.14;
     torso.half_high = 0.5 * size(1) - 0.11;
     torso.b_low = 0.47 * h;
     torso.b_high = 0.83 * h;
     out.push_back(make_prism(torso, cloth(look.tone, look.seed + 2U)));
-    out.push_back(make_rod(Vec3(0, 0, 0.82 * h), Vec3(0.01, 0, 0.89 * h), 0.055, 8, Surface{Material::kSkin, 0.5F, look.seed, {}}));
-    out.push_back(make_ellipsoid(Vec3(0.02, 0, 0.93 * h), Vec3(0.10, 0.08, 0.07 * h), Surface{Material::kSkin, 0.5F, look.seed, {}}));
+    out.push_back(make_rod(Vec3(0, 0, 0.82 * h), Vec3(0.01, 0, 0.89 * h), 0.055, 8,
+                           Surface{Material::kSkin, 0.5F, look.seed, {}}));
+    out.push_back(make_ellipsoid(Vec3(0.02, 0, 0.93 * h), Vec3(0.10, 0.08, 0.07 * h),
+                                 Surface{Material::kSkin, 0.5F, look.seed, {}}));
     out.push_back(make_ellipsoid(Vec3(-0.02, 0, 0.95 * h), Vec3(0.10, 0.088, 0.05 * h),
                                  Surface{Material::kCloth, 0.12F, look.seed + 5U, {}}));
     settle(out);
@@ -117,14 +125,17 @@ Pieces make_cyclist(const Vec3& size, const Look& look, double gait) {
     torso.b = axis / length;
     torso.a = Vec3(torso.b(2), 0, -torso.b(0));
     torso.origin = hip;
-    torso.profile = {{-0.12, -0.05}, {0.12, -0.05}, {0.14, 0.7 * length}, {0.08, length}, {-0.09, length}, {-0.13, 0.7 * length}};
+    torso.profile = {{-0.12, -0.05}, {0.12, -0.05},   {0.14, 0.7 * length},
+                     {0.08, length}, {-0.09, length}, {-0.13, 0.7 * length}};
     torso.half_low = 0.15;
     torso.half_high = 0.19;
     torso.b_low = -0.05;
     torso.b_high = length;
     out.push_back(make_prism(torso, cloth(look.tone, look.seed + 2U)));
-    out.push_back(make_ellipsoid(Vec3(0.24, 0, 0.925 * h), Vec3(0.10, 0.08, 0.12), Surface{Material::kSkin, 0.5F, look.seed, {}}));
-    out.push_back(make_ellipsoid(Vec3(0.21, 0, h - 0.09), Vec3(0.14, 0.10, 0.09), Surface{Material::kCloth, 0.75F, look.seed + 5U, {}}));
+    out.push_back(make_ellipsoid(Vec3(0.24, 0, 0.925 * h), Vec3(0.10, 0.08, 0.12),
+                                 Surface{Material::kSkin, 0.5F, look.seed, {}}));
+    out.push_back(make_ellipsoid(Vec3(0.21, 0, h - 0.09), Vec3(0.14, 0.10, 0.09),
+                                 Surface{Material::kCloth, 0.75F, look.seed + 5U, {}}));
     return out;
 }
 

@@ -40,7 +40,9 @@ double half_width(const Prism& p, double b) {
     return p.half_low + (p.half_high - p.half_low) * (b - p.b_low) / (p.b_high - p.b_low);
 }
 
-Vec3 point_of(const Prism& p, const Vec2& ab, double c) { return p.origin + ab(0) * p.a + ab(1) * p.b + c * p.c; }
+Vec3 point_of(const Prism& p, const Vec2& ab, double c) {
+    return p.origin + ab(0) * p.a + ab(1) * p.b + c * p.c;
+}
 
 }  // namespace
 
@@ -102,7 +104,9 @@ Piece make_ellipsoid(const Vec3& centre, const Vec3& radii, const Surface& surfa
 
 Piece transformed(const Piece& piece, const Pose& T_a_b) {
     Piece out = piece;
-    for (Vec3& v : out.vertices) { v = T_a_b * v; }
+    for (Vec3& v : out.vertices) {
+        v = T_a_b * v;
+    }
     for (Face& f : out.faces) {
         f.n = T_a_b.R * f.n;
         f.d += f.n.dot(T_a_b.t);

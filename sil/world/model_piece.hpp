@@ -15,22 +15,22 @@
 namespace semtrack::sil::world {
 
 enum class Material : std::uint8_t {
-    kPlain,      ///< tone with fine noise
-    kAsphalt,    ///< world coordinates: cracks, patches, lane markings
-    kPaving,     ///< stones with joints; kerb
-    kFacade,     ///< p: length, height, window spacing, style
+    kPlain,    ///< tone with fine noise
+    kAsphalt,  ///< world coordinates: cracks, patches, lane markings
+    kPaving,   ///< stones with joints; kerb
+    kFacade,   ///< p: length, height, window spacing, style
     kRoof,
     kBrick,
     kLeaves,
     kBark,
-    kCarSide,    ///< p: length, height, wheel radius, beltline
-    kCarFront,   ///< p: width, height
+    kCarSide,   ///< p: length, height, wheel radius, beltline
+    kCarFront,  ///< p: width, height
     kCarRear,
     kCarTop,     ///< hood, boot, roof
     kGlassSide,  ///< p: height of the beltline, height, length
     kGlassEnd,
-    kWheel,      ///< p: centre x, centre z, radius
-    kCargo,      ///< tarpaulin with lettering
+    kWheel,  ///< p: centre x, centre z, radius
+    kCargo,  ///< tarpaulin with lettering
     kCloth,
     kSkin,
     kSign
@@ -63,7 +63,7 @@ struct Piece {
     Vec3 centre{Vec3::Zero()};
     Vec3 radii{Vec3::Zero()};
     Mat3 R{Mat3::Identity()};
-    Surface skin{};  ///< of the ellipsoid
+    Surface skin{};      ///< of the ellipsoid
     bool ragged{false};  ///< leaves with holes at the rim
 
     [[nodiscard]] bool is_ellipsoid() const { return radii(0) > 0.0; }

@@ -20,7 +20,9 @@ struct Builder {
 
     void place(const Pieces& pieces, double x, double z, double heading, double above = 0.0) {
         const Pose pose = model_pose(x, -road_height(street, z) - above, z, heading);
-        for (const Piece& p : pieces) { out.pieces.push_back(transformed(p, pose)); }
+        for (const Piece& p : pieces) {
+            out.pieces.push_back(transformed(p, pose));
+        }
     }
 };
 
@@ -28,7 +30,9 @@ struct Builder {
 std::vector<double> strip_ends(const Street& street, double z0, double z1) {
     std::vector<double> ends{z0};
     for (const HeightKnot& k : street.profile) {
-        if (k.z > z0 && k.z < z1) { ends.push_back(k.z); }
+        if (k.z > z0 && k.z < z1) {
+            ends.push_back(k.z);
+        }
     }
     ends.push_back(z1);
     return ends;
@@ -53,11 +57,17 @@ template <class F>
 void outside_gaps(const std::vector<Gap>& gaps, double z0, double z1, F f) {
     double z = z0;
     for (const Gap& g : gaps) {
-        if (g.to_z <= z || g.from_z >= z1) { continue; }
-        if (g.from_z > z) { f(z, g.from_z); }
+        if (g.to_z <= z || g.from_z >= z1) {
+            continue;
+        }
+        if (g.from_z > z) {
+            f(z, g.from_z);
+        }
         z = g.to_z;
     }
-    if (z < z1) { f(z, z1); }
+    if (z < z1) {
+        f(z, z1);
+    }
 }
 
 void add_road(Builder& b) {
@@ -85,9 +95,12 @@ void add_garden(Builder& b, bool right, double from, double to, std::uint32_t h)
     const double side = right ? 1.0 : -1.0;
     const double x = (right ? kerb_right(b.street) : kerb_left(b.street)) + side * (b.street.pavement + 0.25);
     const std::uint32_t kind = h % 4U;
-    if (b.street.garden < 0.8 || kind == 0U) { return; }
+    if (b.street.garden < 0.8 || kind == 0U) {
+        return;
+    }
     const double tall = between(h, 5U, 0.8, 1.35);
-    const Surface surface = kind == 3U ? Surface{Material::kBrick, 0.45F, h, {}} : Surface{Material::kLeaves, 0.24F, h, {}};
+    const Surface surface =
+        kind == 3U ? Surface{Material::kBrick, 0.45F, h, {}} : Surface{Material::kLeaves, 0.24F, h, {}};
     const double open = between(h, 6U, 0.25, 0.7) * (to - from);
     Pieces hedge;
     hedge.push_back(make_box(Vec3(0.2, -0.28, 0.0), Vec3(open, 0.28, tall), surface));
@@ -107,7 +120,9 @@ void add_houses(Builder& b, bool right) {
         while (z < to - 3.0) {
             const std::uint32_t h = hash(s.seed, k++);
             double length = between(h, 1U, 8.0, 13.5);
-            if (to - z - length < 5.0) { length = to - z; }
+            if (to - z - length < 5.0) {
+                length = to - z;
+            }
             const double eaves = between(h, 2U, 3.9, 7.6);
             const double ridge = eaves + between(h, 3U, 2.2, 4.2);
             const double back = between(h, 4U, 0.0, 0.9);
@@ -136,7 +151,9 @@ void add_tree(Builder& b, double x, double z, double height, double radius, std:
 
 bool is_in_gap(const std::vector<Gap>& gaps, double z) {
     for (const Gap& g : gaps) {
-        if (z > g.from_z - 1.5 && z < g.to_z + 1.5) { return true; }
+        if (z > g.from_z - 1.5 && z < g.to_z + 1.5) {
+            return true;
+        }
     }
     return false;
 }
@@ -150,14 +167,20 @@ void add_furniture(Builder& b, bool right) {
     for (double z = b.z0 + (right ? 3.0 : 9.0); z < b.z1 && s.tree_spacing > 0.0; z += s.tree_spacing) {
         const std::uint32_t h = hash(s.seed, k++);
         const double at = z + between(h, 1U, -3.0, 3.0);
-        if (is_in_gap(gaps, at) || h % 3U == 0U) { continue; }
+        if (is_in_gap(gaps, at) || h % 3U == 0U) {
+            continue;
+        }
         add_tree(b, kerb + side * 0.8, at, between(h, 2U, 4.6, 7.5), between(h, 3U, 1.2, 1.9), h);
     }
     for (double z = b.z0 + (right ? 11.0 : 24.0); z < b.z1; z += 27.0) {
         const std::uint32_t h = hash(s.seed, k++);
-        if (is_in_gap(gaps, z)) { continue; }
+        if (is_in_gap(gaps, z)) {
+            continue;
+        }
         b.place(make_lamp(6.0, 1.3), kerb + side * 0.35, z, right ? 0.0 : kPi, 0.12);
-        if (!is_in_gap(gaps, z + 9.0)) { b.place(make_traffic_sign(h), kerb + side * 0.5, z + 9.0, h % 2U == 0U ? 0.0 : kPi, 0.12); }
+        if (!is_in_gap(gaps, z + 9.0)) {
+            b.place(make_traffic_sign(h), kerb + side * 0.5, z + 9.0, h % 2U == 0U ? 0.0 : kPi, 0.12);
+        }
     }
 }
 
@@ -166,7 +189,8 @@ void add_ends(Builder& b) {
     const Street& s = b.street;
     for (int k = -3; k <= 2; ++k) {
         const std::uint32_t h = hash(s.seed, 5000U + static_cast<std::uint32_t>(k + 8));
-        b.place(make_house(12.0, 9.0, between(h, 1U, 5.0, 9.0), between(h, 2U, 9.5, 13.0), h), 12.0 * k, b.z1 + 25.0, -0.5 * kPi);
+        b.place(make_house(12.0, 9.0, between(h, 1U, 5.0, 9.0), between(h, 2U, 9.5, 13.0), h), 12.0 * k, b.z1 + 25.0,
+                -0.5 * kPi);
         add_tree(b, 11.0 * k + 3.0, b.z1 + 15.0, between(h, 3U, 7.0, 12.0), between(h, 4U, 2.0, 3.4), h);
     }
     for (const bool right : {true, false}) {
@@ -196,35 +220,44 @@ Pieces make_house(double length, double depth, double eaves, double ridge, std::
     roof.a = Vec3::UnitY();
     roof.b = Vec3::UnitZ();
     roof.c = Vec3::UnitX();
-    roof.profile = {{-depth - 0.4, eaves - 0.1}, {0.4, eaves - 0.1}, {0.4, eaves + 0.08}, {-0.5 * depth, ridge}, {-depth - 0.4, eaves + 0.08}};
+    roof.profile = {{-depth - 0.4, eaves - 0.1},
+                    {0.4, eaves - 0.1},
+                    {0.4, eaves + 0.08},
+                    {-0.5 * depth, ridge},
+                    {-depth - 0.4, eaves + 0.08}};
     roof.origin = Vec3(0.5 * length, 0, 0);
     roof.half_low = roof.half_high = 0.5 * length + 0.15;
     out.push_back(make_prism(roof, Surface{Material::kRoof, 0.26F + 0.1F * unit(hash(seed, 34U)), seed, {}}));
     const double cx = between(seed, 35U, 0.2, 0.8) * length;
     out.push_back(make_box(Vec3(cx - 0.4, -0.45 * depth, eaves), Vec3(cx + 0.4, -0.45 * depth + 0.6, ridge + 0.9),
                            Surface{Material::kBrick, 0.4F, seed, {}}));
-    out.push_back(make_rod(Vec3(0.15, 0.06, 0.0), Vec3(0.15, 0.06, eaves), 0.055, 6, Surface{Material::kPlain, 0.18F, seed, {}}));
+    out.push_back(
+        make_rod(Vec3(0.15, 0.06, 0.0), Vec3(0.15, 0.06, eaves), 0.055, 6, Surface{Material::kPlain, 0.18F, seed, {}}));
     if (hash(seed, 36U) % 2U == 0U && length > 9.0) {  // dormer
         const double dx = between(seed, 37U, 0.25, 0.6) * length;
         Surface face = wall;
         face.p = {1.8F, 1.5F, 1.8F, 2.0F};
         Pieces dormer;
         dormer.push_back(make_box(Vec3(0.0, -3.2, 0.0), Vec3(1.8, -0.7, 1.5), face));
-        dormer.push_back(make_box(Vec3(-0.15, -3.3, 1.5), Vec3(1.95, -0.5, 1.65), Surface{Material::kRoof, 0.2F, seed, {}}));
+        dormer.push_back(
+            make_box(Vec3(-0.15, -3.3, 1.5), Vec3(1.95, -0.5, 1.65), Surface{Material::kRoof, 0.2F, seed, {}}));
         const Pose up{Mat3::Identity(), Vec3(dx, 0, eaves + 0.35)};
-        for (const Piece& p : dormer) { out.push_back(transformed(p, up)); }
+        for (const Piece& p : dormer) {
+            out.push_back(transformed(p, up));
+        }
     }
     return out;
 }
 
 Pieces make_tree(double height, double crown, std::uint32_t seed) {
     Pieces out;
-    out.push_back(make_rod(Vec3(0, 0, 0), Vec3(0.05, 0.05, height - crown), 0.09 + 0.02 * crown, 8, Surface{Material::kBark, 0.25F, seed, {}}));
-    for (std::uint32_t k = 0; k < 5U; ++k) {
-        const SinCos around = sin_cos(kTwoPi * (static_cast<double>(k) / 4.0 + between(seed, 40U + k, 0.0, 0.2)));
-        const double r = k == 4U ? 0.0 : 0.5 * crown;
-        const double up = k == 4U ? height - 0.75 * crown : height - crown * between(seed, 50U + k, 1.1, 1.7);
-        const double size = crown * between(seed, 60U + k, 0.55, 0.8);
+    out.push_back(make_rod(Vec3(0, 0, 0), Vec3(0.05, 0.05, height - crown), 0.09 + 0.02 * crown, 8,
+                           Surface{Material::kBark, 0.25F, seed, {}}));
+    for (std::uint32_t k = 0; k < 7U; ++k) {
+        const SinCos around = sin_cos(kTwoPi * (static_cast<double>(k) / 6.0 + between(seed, 40U + k, 0.0, 0.2)));
+        const double r = k == 6U ? 0.0 : 0.58 * crown;
+        const double up = k == 6U ? height - 0.7 * crown : height - crown * between(seed, 50U + k, 0.9, 1.8);
+        const double size = crown * between(seed, 60U + k, 0.45, 0.75);
         Piece blob = make_ellipsoid(Vec3(r * around.cos, r * around.sin, up), Vec3(size, size, 0.85 * size),
                                     Surface{Material::kLeaves, 0.24F, seed + k, {}});
         blob.ragged = true;
@@ -238,14 +271,16 @@ Pieces make_lamp(double height, double arm) {
     Pieces out;
     out.push_back(make_rod(Vec3(0, 0, 0), Vec3(0, 0, height), 0.06, 8, metal));
     out.push_back(make_rod(Vec3(0, 0, height), Vec3(0, arm, height + 0.2), 0.035, 6, metal));
-    out.push_back(make_box(Vec3(-0.15, arm - 0.1, height + 0.12), Vec3(0.15, arm + 0.5, height + 0.25), Surface{Material::kPlain, 0.7F, 78U, {}}));
+    out.push_back(make_box(Vec3(-0.15, arm - 0.1, height + 0.12), Vec3(0.15, arm + 0.5, height + 0.25),
+                           Surface{Material::kPlain, 0.7F, 78U, {}}));
     return out;
 }
 
 Pieces make_traffic_sign(std::uint32_t seed) {
     Pieces out;
     out.push_back(make_rod(Vec3(0, 0, 0), Vec3(0, 0, 2.6), 0.03, 6, Surface{Material::kPlain, 0.45F, seed, {}}));
-    out.push_back(make_rod(Vec3(-0.04, 0, 2.3), Vec3(-0.06, 0, 2.3), 0.3, 12, Surface{Material::kSign, 0.8F, seed, {}}));
+    out.push_back(
+        make_rod(Vec3(-0.04, 0, 2.3), Vec3(-0.06, 0, 2.3), 0.3, 12, Surface{Material::kSign, 0.8F, seed, {}}));
     return out;
 }
 

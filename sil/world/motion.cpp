@@ -16,7 +16,9 @@ Phase phase_at(const std::vector<Phase>& phases, int step) {
     int end = 0;
     for (const Phase& p : phases) {
         end += static_cast<int>(std::lround(p.duration_s / kStep_s));
-        if (step < end) { return p; }
+        if (step < end) {
+            return p;
+        }
     }
     return Phase{};
 }
@@ -39,8 +41,8 @@ std::vector<PathState> integrate(const Motion& motion, double reference_m, int f
         const Phase p = phase_at(motion.phases, step);
         if (step % kStepsPerFrame == 0) {
             const SinCos sc = sin_cos(heading);
-            out.push_back({x + reference_m * sc.sin, z + reference_m * sc.cos, heading, speed, speed * p.curvature,
-                           travelled});
+            out.push_back(
+                {x + reference_m * sc.sin, z + reference_m * sc.cos, heading, speed, speed * p.curvature, travelled});
         }
         const double ds = (speed + 0.5 * p.acceleration * kStep_s) * kStep_s;
         const SinCos middle = sin_cos(heading + 0.5 * ds * p.curvature);
@@ -59,8 +61,12 @@ double rear_axle_to_middle(const RoadUser& user) {
 
 double road_height(const Street& street, double z) {
     const std::vector<HeightKnot>& k = street.profile;
-    if (k.empty()) { return 0.0; }
-    if (z <= k.front().z) { return k.front().height; }
+    if (k.empty()) {
+        return 0.0;
+    }
+    if (z <= k.front().z) {
+        return k.front().height;
+    }
     for (std::size_t i = 1; i < k.size(); ++i) {
         if (z <= k[i].z) {
             const double share = (z - k[i - 1].z) / (k[i].z - k[i - 1].z);

@@ -15,10 +15,10 @@ inline constexpr double kCameraHeight_m = 1.65;
 inline constexpr double kRearAxleToCamera_m = 1.7;
 
 struct PathState {
-    double x{0};        ///< N: middle of the box (ego: camera)
+    double x{0};  ///< N: middle of the box (ego: camera)
     double z{0};
-    double heading{0};  ///< from +z towards +x, not wrapped
-    double speed{0};    ///< of the rear axle, signed
+    double heading{0};    ///< from +z towards +x, not wrapped
+    double speed{0};      ///< of the rear axle, signed
     double turn_rate{0};  ///< d heading / dt, positive to the right
     double travelled{0};  ///< path length, m, for gait and bumps
 };

@@ -16,8 +16,8 @@ constexpr double kMinInverse = 1.0 / kFar_m;
 void set_bounds(const View& view, const Piece& piece, Target& target) {
     target.row0 = 0;
     target.row1 = view.height - 1;
-    target.u0 = 0.0;
-    target.u1 = view.width - 1.0;
+    target.u0 = -0.5;
+    target.u1 = view.width - 0.5;
     const Pose T_c_n = view.T_n_c.inverse();
     double u0 = 1e9;
     double u1 = -1e9;
@@ -43,7 +43,9 @@ void set_bounds(const View& view, const Piece& piece, Target& target) {
         target.row1 = -1;
         return;
     }
-    if (behind) { return; }
+    if (behind) {
+        return;
+    }
     const auto clamp = [](double x, double lo, double hi) { return x < lo ? lo : (x > hi ? hi : x); };
     if (u1 < -1.0 || u0 > view.width || v1 < -1.0 || v0 > view.height) {
         target.row1 = -1;
@@ -63,7 +65,9 @@ Linear linear_of(const View& view, const Vec3& direction_n) {
 void prepare_face(const View& view, const Face& face, int owner, std::vector<Shade>& shades, Target& target) {
     double distance = face.d - face.n.dot(view.T_n_c.t);
     const bool front = distance < -1e-6;
-    if (!front && distance < 1e-6) { distance = 1e-6; }
+    if (!front && distance < 1e-6) {
+        distance = 1e-6;
+    }
     Linear q = linear_of(view, face.n);
     q = {q.a / distance, q.b / distance, q.c / distance};
     if (!front) {
@@ -81,7 +85,8 @@ void prepare_face(const View& view, const Face& face, int owner, std::vector<Sha
     shade.direct = direct > 0.0 ? static_cast<float>(direct) : 0.0F;
     shade.skylight = static_cast<float>(0.75 - 0.25 * face.n(1));
     shade.ground = (face.surface.material == Material::kAsphalt || face.surface.material == Material::kPaving ||
-                    face.surface.material == Material::kLeaves) && face.n(1) < -0.9 && owner < 0;
+                    face.surface.material == Material::kLeaves) &&
+                   face.n(1) < -0.9 && owner < 0;
     shade.owner = owner;
     target.fronts.push_back({q, static_cast<std::uint32_t>(shades.size())});
     shades.push_back(shade);
@@ -109,7 +114,8 @@ RowLine on_row(const View& view, const Linear& q, double du, double ray_y) {
     return {q.a / view.fx, q.a * (du - view.cx) / view.fx + q.b * ray_y + q.c};
 }
 
-void trace_faces(const View& view, const Target& target, double du, double ray_y, float* q, std::uint32_t* id, Span& span) {
+void trace_faces(const View& view, const Target& target, double du, double ray_y, float* q, std::uint32_t* id,
+                 Span& span) {
     std::array<RowLine, 32> front;
     const std::size_t n = target.fronts.size() < front.size() ? target.fronts.size() : front.size();
     double lo = target.u0 - du;
@@ -122,11 +128,15 @@ void trace_faces(const View& view, const Target& target, double du, double ray_y
     }
     for (const Linear& b : target.backs) {
         const RowLine back = on_row(view, b, du, ray_y);
-        for (std::size_t i = 0; i < n; ++i) { narrow(front[i].m - back.m, front[i].k - back.k, lo, hi); }
+        for (std::size_t i = 0; i < n; ++i) {
+            narrow(front[i].m - back.m, front[i].k - back.k, lo, hi);
+        }
     }
     const int first = static_cast<int>(std::ceil(lo));
     const int last = static_cast<int>(std::floor(hi));
-    if (first > last) { return; }
+    if (first > last) {
+        return;
+    }
     span.add(first, last);
     for (int x = first; x <= last; ++x) {
         float best = static_cast<float>(front[0].k) + static_cast<float>(front[0].m) * static_cast<float>(x);
@@ -146,26 +156,33 @@ void trace_faces(const View& view, const Target& target, double du, double ray_y
 }
 
 // Rays against the unit sphere; leaves may have holes.
-void trace_ellipsoid(const View& view, const Target& target, double du, double ray_y, float* q, std::uint32_t* id, Span& span) {
+void trace_ellipsoid(const View& view, const Target& target, double du, double ray_y, float* q, std::uint32_t* id,
+                     Span& span) {
     const Piece& piece = *target.ellipsoid;
     const double c = target.origin.dot(target.origin) - 1.0;
     const int first = static_cast<int>(std::ceil(target.u0 - du < 0.0 ? 0.0 : target.u0 - du));
-    const int limit = static_cast<int>(std::floor(target.u1 - du > view.width - 1.0 ? view.width - 1.0 : target.u1 - du));
+    const int limit =
+        static_cast<int>(std::floor(target.u1 - du > view.width - 1.0 ? view.width - 1.0 : target.u1 - du));
     for (int x = first; x <= limit; ++x) {
         const Vec3 d = target.to_sphere * Vec3(view.ray_x(x + du), ray_y, 1.0);
         const double a = d.dot(d);
         const double b = target.origin.dot(d);
         const double disc = b * b - a * c;
-        if (disc <= 0.0 || b >= 0.0) { continue; }
+        if (disc <= 0.0 || b >= 0.0) {
+            continue;
+        }
         const double depth = (-b - std::sqrt(disc)) / a;
         const float inverse = static_cast<float>(1.0 / depth);
-        if (depth < kNear_m || inverse <= q[x]) { continue; }
+        if (depth < kNear_m || inverse <= q[x]) {
+            continue;
+        }
         if (piece.ragged) {
             const Vec3 on = target.origin + depth * d;  // unit vector: also the normal
             const double facing = std::sqrt(disc) / std::sqrt(a);
             const Vec3 metres = on.cwiseProduct(piece.radii);
-            if (!leaf_at(piece.skin, static_cast<float>(metres(0)), static_cast<float>(metres(1)), static_cast<float>(metres(2)),
-                         static_cast<float>(depth / view.fx), static_cast<float>(1.0 - facing))) {
+            if (!leaf_at(piece.skin, static_cast<float>(metres(0)), static_cast<float>(metres(1)),
+                         static_cast<float>(metres(2)), static_cast<float>(depth / view.fx),
+                         static_cast<float>(1.0 - facing))) {
                 continue;
             }
         }
@@ -193,17 +210,25 @@ SampleGrid sample_grid(int samples) {
 Target prepare(const View& view, const Piece& piece, int owner, std::vector<Shade>& shades) {
     Target target;
     set_bounds(view, piece, target);
-    if (target.row1 < target.row0) { return target; }
+    if (target.row1 < target.row0) {
+        return target;
+    }
     if (!piece.is_ellipsoid()) {
-        for (const Face& f : piece.faces) { prepare_face(view, f, owner, shades, target); }
-        if (target.fronts.empty()) { target.row1 = -1; }
+        for (const Face& f : piece.faces) {
+            prepare_face(view, f, owner, shades, target);
+        }
+        if (target.fronts.empty()) {
+            target.row1 = -1;
+        }
         return target;
     }
     target.ellipsoid = &piece;
     const Mat3 inverse_radii = piece.radii.cwiseInverse().asDiagonal();
     target.origin = inverse_radii * (piece.R.transpose() * (view.T_n_c.t - piece.centre));
     target.to_sphere = inverse_radii * (piece.R.transpose() * view.T_n_c.R);
-    if (target.origin.dot(target.origin) <= 1.0) { target.row1 = -1; }
+    if (target.origin.dot(target.origin) <= 1.0) {
+        target.row1 = -1;
+    }
     target.id = static_cast<std::uint32_t>(shades.size());
     Shade shade;
     shade.surface = piece.skin;
@@ -221,7 +246,9 @@ void RowSamples::resize(int w, int samples) {
     }
 }
 
-void RowSamples::clear(int samples) { resize(width, samples); }
+void RowSamples::clear(int samples) {
+    resize(width, samples);
+}
 
 Span trace_row(const View& view, const SampleGrid& grid, const Target& target, int row, RowSamples& out) {
     Span span;

@@ -1,9 +1,10 @@
 // Which surface every sample of one image row sees.
 //
-// A convex polyhedron is the common part of half spaces n x <= d. For a ray from the camera with z = 1 each plane is met
-// at inverse depth q = (n . ray) / d', linear in the pixel: planes that the camera lies outside of give an upper bound
-// of q, the others a lower bound. So a row's span of samples that hit comes from linear inequalities, and the visible
-// face is the one with the smallest q among the first kind; no division per sample. The nearest thing has the largest q.
+// A convex polyhedron is the common part of half spaces n x <= d. For a ray from the camera with z = 1 each plane is
+// met at inverse depth q = (n . ray) / d', linear in the pixel: planes that the camera lies outside of give an upper
+// bound of q, the others a lower bound. So a row's span of samples that hit comes from linear inequalities, and the
+// visible face is the one with the smallest q among the first kind; no division per sample. The nearest thing has the
+// largest q.
 #ifndef SEMTRACK_SIL_WORLD_RAYCAST_HPP
 #define SEMTRACK_SIL_WORLD_RAYCAST_HPP
 
@@ -58,8 +59,8 @@ struct Shade {
     double s0{0};
     double t0{0};
     Linear q{};
-    float direct{0};    ///< share of the sun on a flat face
-    float skylight{1};  ///< share of the ambient light
+    float direct{0};     ///< share of the sun on a flat face
+    float skylight{1};   ///< share of the ambient light
     bool ground{false};  ///< flat: shadows fall on it
     int owner{-1};       ///< road user's index; -1: background
     const Piece* ellipsoid{nullptr};

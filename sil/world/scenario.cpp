@@ -34,7 +34,9 @@ float paint(std::uint32_t seed) {
 
 bool in_gap(const std::vector<Gap>& gaps, double z) {
     for (const Gap& g : gaps) {
-        if (z > g.from_z - 3.0 && z < g.to_z + 3.0) { return true; }
+        if (z > g.from_z - 3.0 && z < g.to_z + 3.0) {
+            return true;
+        }
     }
     return false;
 }
@@ -67,13 +69,17 @@ Scenario find_scenario(const std::string& name) {
         }
     }
     std::string known;
-    for (const Entry& e : kScenarios) { known += std::string(known.empty() ? "" : ", ") + e.name; }
+    for (const Entry& e : kScenarios) {
+        known += std::string(known.empty() ? "" : ", ") + e.name;
+    }
     throw InputError("unknown scenario '" + name + "' (there are " + known + ")");
 }
 
 std::vector<std::string> all_scenario_names() {
     std::vector<std::string> names;
-    for (const Entry& e : kScenarios) { names.emplace_back(e.name); }
+    for (const Entry& e : kScenarios) {
+        names.emplace_back(e.name);
+    }
     return names;
 }
 
@@ -89,13 +95,34 @@ RoadUser make_user(int id, ObjectClass object_class, const Motion& motion, std::
     double w = 1.65;
     double h = 1.52;
     switch (object_class) {
-        case ObjectClass::kVan: l = 4.9; w = 1.9; h = 2.1; break;
-        case ObjectClass::kTruck: l = 8.5; w = 2.5; h = 3.2; break;
-        case ObjectClass::kTram: l = 16.0; w = 2.5; h = 3.5; break;
-        case ObjectClass::kPedestrian: l = 0.8; w = 0.62; h = 1.75; break;
-        case ObjectClass::kCyclist: l = 1.78; w = 0.6; h = 1.75; break;
+        case ObjectClass::kVan:
+            l = 4.9;
+            w = 1.9;
+            h = 2.1;
+            break;
+        case ObjectClass::kTruck:
+            l = 8.5;
+            w = 2.5;
+            h = 3.2;
+            break;
+        case ObjectClass::kTram:
+            l = 16.0;
+            w = 2.5;
+            h = 3.5;
+            break;
+        case ObjectClass::kPedestrian:
+            l = 0.8;
+            w = 0.62;
+            h = 1.75;
+            break;
+        case ObjectClass::kCyclist:
+            l = 1.78;
+            w = 0.6;
+            h = 1.75;
+            break;
         case ObjectClass::kCar:
-        case ObjectClass::kMisc: break;
+        case ObjectClass::kMisc:
+            break;
     }
     const bool person = object_class == ObjectClass::kPedestrian || object_class == ObjectClass::kCyclist;
     u.length = l + (person ? 0.0 : spread(seed, 10U, 0.1 * l));
@@ -104,7 +131,9 @@ RoadUser make_user(int id, ObjectClass object_class, const Motion& motion, std::
     return u;
 }
 
-double kerb_right(const Street& s) { return 0.5 * s.lane_width + s.parking_right; }
+double kerb_right(const Street& s) {
+    return 0.5 * s.lane_width + s.parking_right;
+}
 double kerb_left(const Street& s) {
     return -0.5 * s.lane_width - s.lane_width * static_cast<double>(s.lanes_left) - s.parking_left;
 }

@@ -21,7 +21,7 @@ struct Phase {
 };
 
 struct Motion {
-    double x{0};        ///< N, m: middle of the box (ego: camera)
+    double x{0};  ///< N, m: middle of the box (ego: camera)
     double z{0};
     double heading{0};  ///< from +z (along the street) towards +x, rad
     double speed{0};    ///< signed
@@ -60,41 +60,41 @@ struct HeightKnot {
 struct Street {
     std::uint32_t seed{1};
     double lane_width{3.5};
-    int lanes_left{1};            ///< of the ego lane, which lies at x = 0
-    double parking_right{2.3};    ///< width of the parking lane; 0: none
+    int lanes_left{1};          ///< of the ego lane, which lies at x = 0
+    double parking_right{2.3};  ///< width of the parking lane; 0: none
     double parking_left{2.3};
-    double pavement{2.6};         ///< kerb to garden
-    double garden{1.2};           ///< pavement to houses
-    double tree_spacing{17.0};    ///< 0: no trees
+    double pavement{2.6};       ///< kerb to garden
+    double garden{1.2};         ///< pavement to houses
+    double tree_spacing{17.0};  ///< 0: no trees
     std::vector<Gap> gaps_left{};
     std::vector<Gap> gaps_right{};
     std::vector<HeightKnot> profile{};
-    double sun{0.75};             ///< share of direct light
-    double ambient{0.42};
+    double sun{1.02};  ///< share of direct light
+    double ambient{0.45};
 };
 
 struct ExposureChange {
-    int frame{0};     ///< from this frame on
+    int frame{0};  ///< from this frame on
     double gain{1};
 };
 
 struct Imaging {
-    double noise_sigma{1.6};       ///< grey levels
+    double noise_sigma{1.6};  ///< grey levels
     double gain{1.0};
-    double right_offset{0.0};      ///< grey levels added to the right image
+    double right_offset{0.0};  ///< grey levels added to the right image
     double right_gain{1.0};
     std::vector<ExposureChange> exposure{};
-    std::vector<int> dropped{};    ///< frames without images
-    int blind_right_from{-1};      ///< frames [from, to] with a black right image
+    std::vector<int> dropped{};  ///< frames without images
+    int blind_right_from{-1};    ///< frames [from, to] with a black right image
     int blind_right_to{-1};
-    RowOffset row_offset{};        ///< rendered exactly and stated in the calibration
-    int samples{4};                ///< a pixel: 4 or 8
+    RowOffset row_offset{};  ///< rendered exactly and stated in the calibration
+    int samples{4};          ///< a pixel: 4 or 8
 };
 
 struct DetectorErrors {
     double edge_sigma_px{1.0};
     double edge_sigma_share{0.015};
-    double miss{0.03};             ///< large and visible; rises with small size and occlusion
+    double miss{0.03};  ///< large and visible; rises with small size and occlusion
     double viewpoint_wrong{0.04};
     double false_positives{0.03};  ///< per frame
     int every{1};                  ///< a list on every n-th frame only

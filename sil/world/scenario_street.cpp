@@ -27,11 +27,13 @@ Scenario make_street_scenario() {
     const double left_lane = -s.street.lane_width;
     // 1 drives ahead, brakes and turns off to the right; 2 comes towards us; 3 overtakes.
     s.users.push_back(make_user(1, ObjectClass::kCar,
-                                motion(0.1, 15.0, 0.0, 8.0, {{1.6, 0.0, 0.0}, {1.6, -2.2, 0.0}, {2.5, 0.0, 1.0 / 7.2}}), 101U));
+                                motion(0.1, 15.0, 0.0, 8.0, {{1.6, 0.0, 0.0}, {1.6, -2.2, 0.0}, {2.5, 0.0, 1.0 / 7.2}}),
+                                101U));
     s.users.push_back(make_user(2, ObjectClass::kCar, motion(left_lane + 0.2, 38.0, kPi, 9.5), 102U));
-    s.users.push_back(make_user(3, ObjectClass::kCar, motion(0.0, -13.0, 0.0, 8.5, swing_left(0.9, 1.3, 35.0, 0.8)), 113U));
+    s.users.push_back(
+        make_user(3, ObjectClass::kCar, motion(0.0, -13.0, 0.0, 8.5, swing_left(0.9, 1.3, 35.0, 0.8)), 113U));
     s.users.push_back(make_user(4, ObjectClass::kPedestrian, motion(kerb_right(s.street) + 1.2, 16.0, kPi, 1.3), 104U));
-    s.users.push_back(make_user(5, ObjectClass::kPedestrian, motion(5.4, 40.0, -0.5 * kPi, 1.35), 105U));
+    s.users.push_back(make_user(5, ObjectClass::kPedestrian, motion(5.6, 56.0, -0.5 * kPi, 1.3), 105U));
     s.users.push_back(make_user(6, ObjectClass::kCyclist, motion(left_lane - 1.1, 30.0, kPi, 4.2), 106U));
     add_parked_cars(s.street, -2.0, 110.0, 5U, 10, s);
     s.imaging.exposure = {{40, 0.86}, {41, 0.9}, {44, 0.94}};
@@ -45,7 +47,8 @@ Scenario make_empty_scenario() {
     s.street.seed = 11U;
     s.street.gaps_right = {{29.0, 39.5}};
     s.street.gaps_left = {{70.0, 80.0}};
-    s.ego.motion = motion(0.0, 0.0, 0.0, 7.5, {{1.5, 0.2, 0.0}, {1.5, -1.6, 0.0}, {1.0, 0.0, 0.012}, {1.0, 0.4, -0.012}});
+    s.ego.motion =
+        motion(0.0, 0.0, 0.0, 7.5, {{1.5, 0.2, 0.0}, {1.5, -1.6, 0.0}, {1.0, 0.0, 0.012}, {1.0, 0.4, -0.012}});
     s.imaging.right_offset = -5.0;
     return s;
 }

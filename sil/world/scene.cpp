@@ -27,7 +27,9 @@ ShadowBlock shadow_of(const RoadUser& user, const Pose& T_n_m) {
 
 Scene::Scene(const Scenario& scenario, int frames) : scenario_(scenario) {
     ego_ = integrate(scenario.ego.motion, kRearAxleToCamera_m, frames);
-    for (const RoadUser& u : scenario.users) { users_.push_back(integrate(u.motion, rear_axle_to_middle(u), frames)); }
+    for (const RoadUser& u : scenario.users) {
+        users_.push_back(integrate(u.motion, rear_axle_to_middle(u), frames));
+    }
     double z_max = 0.0;
     double z_min = 0.0;
     for (const PathState& s : ego_) {
@@ -40,7 +42,9 @@ Scene::Scene(const Scenario& scenario, int frames) : scenario_(scenario) {
     crowns_ = std::move(model.crowns);
 }
 
-Pose Scene::T_n_m(std::size_t user, int frame) const { return user_pose(scenario_.street, this->user(user, frame)); }
+Pose Scene::T_n_m(std::size_t user, int frame) const {
+    return user_pose(scenario_.street, this->user(user, frame));
+}
 
 FrameScene Scene::at(int frame) const {
     FrameScene out;
@@ -52,7 +56,9 @@ FrameScene Scene::at(int frame) const {
         const double travelled = user(k, frame).travelled;
         const double gait = u.object_class == ObjectClass::kPedestrian ? travelled / kStep_m : travelled / kCrank_m;
         Pieces pieces = make_road_user(u.object_class, Vec3(u.length, u.width, u.height), u.look, gait);
-        for (Piece& p : pieces) { p = transformed(p, pose); }
+        for (Piece& p : pieces) {
+            p = transformed(p, pose);
+        }
         out.users.push_back(std::move(pieces));
         out.T_n_m.push_back(pose);
         out.shadows.push_back(shadow_of(u, pose));

@@ -11,7 +11,9 @@
 namespace semtrack::sil::world {
 
 /// Towards the sun, in N: from the left, above, behind. Shared by shading and shadows.
-[[nodiscard]] inline Vec3 sun_direction() { return {-0.44, -0.78, -0.445}; }
+[[nodiscard]] inline Vec3 sun_direction() {
+    return {-0.44, -0.78, -0.445};
+}
 
 /// A house that throws its shadow across the street; `to_z` > `from_z`.
 struct ShadowHouse {
@@ -35,9 +37,9 @@ struct ShadowBlock {
 
 struct FrameScene {
     Pose T_n_c{};
-    std::vector<Pose> T_n_m{};              ///< of every road user
-    std::vector<Pieces> users{};            ///< in N
-    std::vector<ShadowBlock> shadows{};     ///< of road users and trees
+    std::vector<Pose> T_n_m{};           ///< of every road user
+    std::vector<Pieces> users{};         ///< in N
+    std::vector<ShadowBlock> shadows{};  ///< of road users and trees
 };
 
 class Scene {

@@ -12,14 +12,20 @@ namespace {
 // The samples of a pixel share its area; a little more than half its width each, so that they overlap.
 constexpr double kSampleShare = 0.6;
 constexpr float kHaze_m = 900.0F;
-constexpr float kSunX = 0.44F / 0.78F;   // shadow's shift per metre of height, away from the sun
+constexpr float kSunX = 0.44F / 0.78F;  // shadow's shift per metre of height, away from the sun
 constexpr float kSunZ = 0.445F / 0.78F;
 
-float clamp01(float x) { return x < 0.0F ? 0.0F : (x > 1.0F ? 1.0F : x); }
-double magnitude(double x) { return x < 0.0 ? -x : x; }
+float clamp01(float x) {
+    return x < 0.0F ? 0.0F : (x > 1.0F ? 1.0F : x);
+}
+double magnitude(double x) {
+    return x < 0.0 ? -x : x;
+}
 
 // 1 inside, 0 outside, over a soft edge.
-float soft(float inside_m, float edge_m) { return clamp01(0.5F + inside_m / edge_m); }
+float soft(float inside_m, float edge_m) {
+    return clamp01(0.5F + inside_m / edge_m);
+}
 
 // Shadow of an upright block: its base and two sections of it, shifted away from the sun.
 float block_shadow(const ShadowBlock& b, float x, float z, float footprint) {
@@ -63,11 +69,15 @@ GroundShadow::GroundShadow(const Scene& scene, const std::vector<ShadowBlock>& b
     houses_at_.resize(n);
     const auto mark = [&](std::vector<std::vector<int>>& at, float z0, float z1, int index) {
         for (int m = floor_int(z0 - first_z_); m <= floor_int(z1 - first_z_); ++m) {
-            if (m >= 0 && m < static_cast<int>(n)) { at[static_cast<std::size_t>(m)].push_back(index); }
+            if (m >= 0 && m < static_cast<int>(n)) {
+                at[static_cast<std::size_t>(m)].push_back(index);
+            }
         }
     };
     for (std::size_t k = 0; k < houses_.size(); ++k) {
-        if (houses_[k].front_x < 0.0F) { mark(houses_at_, houses_[k].from_z, houses_[k].to_z + kReach_m, static_cast<int>(k)); }
+        if (houses_[k].front_x < 0.0F) {
+            mark(houses_at_, houses_[k].from_z, houses_[k].to_z + kReach_m, static_cast<int>(k));
+        }
     }
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
         const ShadowBlock& b = blocks_[k];
@@ -78,15 +88,20 @@ GroundShadow::GroundShadow(const Scene& scene, const std::vector<ShadowBlock>& b
 
 float GroundShadow::lit(float x, float z, float footprint) const {
     const int m = floor_int(z - first_z_);
-    if (m < 0 || m >= static_cast<int>(blocks_at_.size())) { return 1.0F; }
+    if (m < 0 || m >= static_cast<int>(blocks_at_.size())) {
+        return 1.0F;
+    }
     float dark = 0.0F;
     for (const int k : houses_at_[static_cast<std::size_t>(m)]) {
         const ShadowHouse& h = houses_[static_cast<std::size_t>(k)];
         const float over = (x - h.front_x) / kSunX;  // height of the sun's ray over the house front
         const float from = z - over * kSunZ;
-        if (over <= 0.0F) { continue; }
+        if (over <= 0.0F) {
+            continue;
+        }
         const float edge = 0.05F + footprint;
-        const float d = soft(h.eaves - over, 0.1F + footprint) * soft(from - h.from_z, edge) * soft(h.to_z - from, edge);
+        const float d =
+            soft(h.eaves - over, 0.1F + footprint) * soft(from - h.from_z, edge) * soft(h.to_z - from, edge);
         dark = d > dark ? d : dark;
     }
     for (const int k : blocks_at_[static_cast<std::size_t>(m)]) {
@@ -97,7 +112,8 @@ float GroundShadow::lit(float x, float z, float footprint) const {
     return 1.0F - dark;
 }
 
-Shader::Shader(const Scene& scene, const View& view, const std::vector<Shade>& shades, const std::vector<ShadowBlock>& blocks)
+Shader::Shader(const Scene& scene, const View& view, const std::vector<Shade>& shades,
+               const std::vector<ShadowBlock>& blocks)
     : view_(view),
       shades_(shades),
       shadow_(scene, blocks),
@@ -115,8 +131,10 @@ float Shader::face(const Shade& f, double q, double x, double y) const {
     at.t = static_cast<float>(t * depth + f.t0);
     const double sz = s * depth;
     const double tz = t * depth;
-    at.fs = static_cast<float>(depth * (magnitude(f.s.a - sz * f.q.a) * per_pixel_x_ + magnitude(f.s.b - sz * f.q.b) * per_pixel_y_));
-    at.ft = static_cast<float>(depth * (magnitude(f.t.a - tz * f.q.a) * per_pixel_x_ + magnitude(f.t.b - tz * f.q.b) * per_pixel_y_));
+    at.fs = static_cast<float>(
+        depth * (magnitude(f.s.a - sz * f.q.a) * per_pixel_x_ + magnitude(f.s.b - sz * f.q.b) * per_pixel_y_));
+    at.ft = static_cast<float>(
+        depth * (magnitude(f.t.a - tz * f.q.a) * per_pixel_x_ + magnitude(f.t.b - tz * f.q.b) * per_pixel_y_));
     float light = ambient_ * f.skylight;
     float direct = sun_ * f.direct;
     if (f.ground) {
@@ -135,13 +153,15 @@ float Shader::ellipsoid(const Shade& f, double q, double x, double y) const {
     Vec3 normal = on.cwiseQuotient(p.radii.cwiseProduct(p.radii));
     normal = p.R * (normal / std::sqrt(normal.dot(normal)));
     const double direct = normal.dot(sun_direction());
-    const float light = ambient_ * static_cast<float>(0.7 - 0.3 * normal(1)) + sun_ * (direct > 0.0 ? static_cast<float>(direct) : 0.0F);
+    const float light = ambient_ * static_cast<float>(0.7 - 0.3 * normal(1)) +
+                        sun_ * (direct > 0.0 ? static_cast<float>(direct) : 0.0F);
     return reflectance(f.surface, static_cast<float>(on(0)), static_cast<float>(on(1)), static_cast<float>(on(2)),
-                       static_cast<float>(depth * per_pixel_x_)) * light;
+                       static_cast<float>(depth * per_pixel_x_)) *
+           light;
 }
 
 float Shader::radiance(std::uint32_t id, float inverse_depth, double x, double y) const {
-    const float brightness = sun_ + 0.6F * ambient_;
+    const float brightness = 0.75F * sun_ + 0.45F * ambient_;
     if (id == 0U) {
         const Vec3 d = view_.T_n_c.R * Vec3(x, y, 1.0);
         return brightness * sky(d(0), d(1), d(2), static_cast<float>(per_pixel_x_));

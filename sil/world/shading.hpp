@@ -25,8 +25,10 @@ private:
 
 class Shader {
 public:
-    Shader(const Scene& scene, const View& view, const std::vector<Shade>& shades, const std::vector<ShadowBlock>& blocks);
+    Shader(const Scene& scene, const View& view, const std::vector<Shade>& shades,
+           const std::vector<ShadowBlock>& blocks);
     /// 0..about 1.2; 1 is white at gain 1.
+    [[nodiscard]] bool is_ground(std::uint32_t id) const { return shades_[id].ground; }
     [[nodiscard]] float radiance(std::uint32_t id, float inverse_depth, double ray_x, double ray_y) const;
 
 private:

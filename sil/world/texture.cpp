@@ -6,18 +6,18 @@ namespace {
 
 constexpr std::uint32_t kX = 0x9e3779b1U;
 constexpr std::uint32_t kY = 0x85ebca77U;
-constexpr std::uint32_t kZ = 0xc2b2ae3dU;
 
 // Shorter than mix(): a lattice value needs no more, and this is the renderer's innermost loop.
 float lattice(std::uint32_t h) {
-    h ^= h >> 15U;
     h *= 0x2c1b3c6dU;
-    h ^= h >> 13U;
+    h ^= h >> 15U;
     h *= 0x297a2d39U;
-    return unit(h ^ (h >> 15U));
+    return unit(h);
 }
 
-float smooth(float x) { return x * x * (3.0F - 2.0F * x); }
+float smooth(float x) {
+    return x * x * (3.0F - 2.0F * x);
+}
 
 // 0 where a cell is below 0.7 footprints, 1 from 1.5 footprints on.
 float fade(float cell, float footprint) {
@@ -41,20 +41,15 @@ float noise2(float s, float t, std::uint32_t seed) {
     return blend(blend(n00, n10, a), blend(n01, n11, a), b);
 }
 
-float noise3(float x, float y, float z, std::uint32_t seed) {
-    const int k = floor_int(z);
-    const float c = smooth(z - static_cast<float>(k));
-    const std::uint32_t h = static_cast<std::uint32_t>(k) * kZ + seed;
-    return blend(noise2(x, y, mix(h)), noise2(x, y, mix(h + kZ)), c);
-}
-
 float octaves2(float s, float t, float footprint, const Octaves& o, std::uint32_t seed) {
     float sum = 0.0F;
     float amplitude = 1.0F;
     float cell = o.cell;
     for (int k = 0; k < o.count; ++k) {
         const float w = fade(cell, footprint);
-        if (w <= 0.0F) { break; }
+        if (w <= 0.0F) {
+            break;
+        }
         const float inverse = 1.0F / cell;
         sum += amplitude * w *
                (2.0F * noise2(s * inverse, t * inverse, seed + static_cast<std::uint32_t>(k) * 0x51ed270bU) - 1.0F);
@@ -64,24 +59,10 @@ float octaves2(float s, float t, float footprint, const Octaves& o, std::uint32_
     return sum;
 }
 
-float octaves3(float x, float y, float z, float footprint, const Octaves& o, std::uint32_t seed) {
-    float sum = 0.0F;
-    float amplitude = 1.0F;
-    float cell = o.cell;
-    for (int k = 0; k < o.count; ++k) {
-        const float w = fade(cell, footprint);
-        if (w <= 0.0F) { break; }
-        const float inverse = 1.0F / cell;
-        sum += amplitude * w * (2.0F * noise3(x * inverse, y * inverse, z * inverse, seed) - 1.0F);
-        seed += 0x51ed270bU;
-        amplitude *= o.gain;
-        cell *= 0.5F;
-    }
-    return sum;
-}
-
 float cover_periodic(float x, float f, float period, float a, float b) {
-    if (f >= period) { return (b - a) / period; }
+    if (f >= period) {
+        return (b - a) / period;
+    }
     const float x0 = x - period * static_cast<float>(floor_int(x / period));
     return cover(x0, f, a, b) + cover(x0, f, a - period, b - period) + cover(x0, f, a + period, b + period);
 }

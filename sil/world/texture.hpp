@@ -16,12 +16,16 @@ namespace semtrack::sil::world {
     h ^= h >> 16U;
     return h;
 }
-[[nodiscard]] inline std::uint32_t hash(std::uint32_t a, std::uint32_t b) { return mix(a * 0x9e3779b1U + mix(b)); }
+[[nodiscard]] inline std::uint32_t hash(std::uint32_t a, std::uint32_t b) {
+    return mix(a * 0x9e3779b1U + mix(b));
+}
 [[nodiscard]] inline std::uint32_t hash(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     return hash(hash(a, b), c);
 }
 /// [0, 1), 24 bits.
-[[nodiscard]] inline float unit(std::uint32_t h) { return static_cast<float>(h >> 8U) * (1.0F / 16777216.0F); }
+[[nodiscard]] inline float unit(std::uint32_t h) {
+    return static_cast<float>(h >> 8U) * (1.0F / 16777216.0F);
+}
 
 /// Largest integer not above x, |x| < 2^30.
 [[nodiscard]] inline int floor_int(float x) {
@@ -31,7 +35,6 @@ namespace semtrack::sil::world {
 
 /// Lattice values in [0, 1), smoothly interpolated; one lattice cell per unit.
 [[nodiscard]] float noise2(float s, float t, std::uint32_t seed);
-[[nodiscard]] float noise3(float x, float y, float z, std::uint32_t seed);
 
 /// Octaves of noise2 with mean 0: cell sizes `cell`, `cell` / 2, ... (m), amplitudes 1, gain, gain^2, ...
 /// Octaves finer than the sample's footprint (m) fade out, so that nothing aliases.
@@ -41,7 +44,6 @@ struct Octaves {
     float gain;
 };
 [[nodiscard]] float octaves2(float s, float t, float footprint, const Octaves& o, std::uint32_t seed);
-[[nodiscard]] float octaves3(float x, float y, float z, float footprint, const Octaves& o, std::uint32_t seed);
 
 /// Share of the interval of width f around x that lies in [a, b]: a filtered stripe.
 [[nodiscard]] inline float cover(float x, float f, float a, float b) {
@@ -52,7 +54,9 @@ struct Octaves {
 }
 /// The same for a stripe [a, b] that repeats every `period`; 0 <= a < b <= period.
 [[nodiscard]] float cover_periodic(float x, float f, float period, float a, float b);
-[[nodiscard]] inline float blend(float a, float b, float share) { return a + (b - a) * share; }
+[[nodiscard]] inline float blend(float a, float b, float share) {
+    return a + (b - a) * share;
+}
 
 }  // namespace semtrack::sil::world
 

@@ -132,6 +132,9 @@ void trace_faces(const View& view, const Target& target, double du, double ray_y
             narrow(front[i].m - back.m, front[i].k - back.k, lo, hi);
         }
     }
+    if (!(lo <= hi)) {
+        return;
+    }  // also keeps the bounds in int's range: they start inside the image and only narrow
     const int first = static_cast<int>(std::ceil(lo));
     const int last = static_cast<int>(std::floor(hi));
     if (first > last) {

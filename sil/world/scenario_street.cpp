@@ -15,9 +15,11 @@ Motion motion(double x, double z, double heading, double speed, std::vector<Phas
     return m;
 }
 
-// Lane change to the left by two arcs; `radius` of each.
-std::vector<Phase> swing_left(double wait_s, double arc_s, double radius, double acceleration) {
-    return {{wait_s, 0.0, 0.0}, {arc_s, acceleration, -1.0 / radius}, {arc_s, acceleration, 1.0 / radius}};
+// Lane change to the left by two arcs of equal angle and duration; `radius` of the first, `speed` at its start.
+std::vector<Phase> swing_left(double wait_s, double speed, double arc_s, double radius, double acceleration) {
+    const double first = (speed + 0.5 * acceleration * arc_s) * arc_s;
+    const double second = first + acceleration * arc_s * arc_s;
+    return {{wait_s, 0.0, 0.0}, {arc_s, acceleration, -1.0 / radius}, {arc_s, acceleration, first / (second * radius)}};
 }
 
 }  // namespace
@@ -31,7 +33,7 @@ Scenario make_street_scenario() {
                                 101U));
     s.users.push_back(make_user(2, ObjectClass::kCar, motion(left_lane + 0.2, 38.0, kPi, 9.5), 102U));
     s.users.push_back(
-        make_user(3, ObjectClass::kCar, motion(0.0, -13.0, 0.0, 8.5, swing_left(0.9, 1.3, 35.0, 0.8)), 113U));
+        make_user(3, ObjectClass::kCar, motion(0.0, -8.0, 0.0, 7.5, swing_left(2.0, 7.5, 1.1, 26.0, 1.5)), 113U));
     s.users.push_back(make_user(4, ObjectClass::kPedestrian, motion(kerb_right(s.street) + 1.2, 16.0, kPi, 1.3), 104U));
     s.users.push_back(make_user(5, ObjectClass::kPedestrian, motion(5.6, 56.0, -0.5 * kPi, 1.3), 105U));
     s.users.push_back(make_user(6, ObjectClass::kCyclist, motion(left_lane - 1.1, 30.0, kPi, 4.2), 106U));
@@ -45,7 +47,7 @@ Scenario make_empty_scenario() {
     s.seed = 7U;
     s.frames = 60;
     s.street.seed = 11U;
-    s.street.gaps_right = {{29.0, 39.5}};
+    s.street.gaps_right = {{38.0, 50.0}};
     s.street.gaps_left = {{70.0, 80.0}};
     s.ego.motion =
         motion(0.0, 0.0, 0.0, 7.5, {{1.5, 0.2, 0.0}, {1.5, -1.6, 0.0}, {1.0, 0.0, 0.012}, {1.0, 0.4, -0.012}});

@@ -38,7 +38,7 @@ ObjectTruth object_truth(const Scene& scene, std::size_t user, int frame) {
     t.frame = frame;
     t.id = u.id;
     t.speed = state.speed;
-    t.yaw_rate = -state.turn_rate;
+    t.yaw_rate = 0.0 - state.turn_rate;
     t.size_m = Vec3(u.length, u.width, u.height);
     t.T_c_o = scene.T_n_c(frame).inverse() * scene.T_n_m(user, frame);
     t.T_c_o.t = t.T_c_o * Vec3(0, 0, 0.5 * u.height);

@@ -11,29 +11,36 @@
 
 namespace semtrack::sil {
 
+/// Rows that did not reach a list, and rows that were cut. Only grow.
+struct DetectionCounters {
+    int inverted{0};  ///< right <= left or bottom <= top
+    int outside{0};   ///< no overlap with the image
+    int doubled{0};   ///< same frame, class and box as an earlier row
+    int excess{0};    ///< beyond kMaxDetections of the frame; the highest scores are kept
+    int clipped{0};   ///< kept, cut at the image border
+    [[nodiscard]] int dropped() const { return inverted + outside + doubled + excess; }
+};
+
 /// A frame without entry has no list; an empty vector says that nothing was seen.
 struct Detections {
     std::map<int, std::vector<Detection>> by_frame;
-    int dropped{0};     ///< inverted, without overlap with the image, doubled, beyond the capacity
-    int bad_frames{0};  ///< rows of frames that no drive has
+    int dropped{0};     ///< counters.dropped()
+    int bad_frames{0};  ///< rows of frames that no drive has (negative, or beyond 10^7), `none` rows too
+    DetectionCounters counters;
 };
 
-/// Text where a number belongs, unknown classes, viewpoints out of range: InputError by line. Boxes are clipped to
-/// width x height; those without overlap are dropped and counted.
+/// Text where a number belongs, a number that is not finite, an unknown class, viewpoints out of range: InputError by
+/// line. A list whose rows were all dropped is empty: the detector did answer. `none` beside other rows says nothing.
 [[nodiscard]] Detections read_detections(const std::filesystem::path& path, int width, int height);
 
-/// Clips, drops, counts; keeps the highest scores when there are more than a list holds.
+/// Drops and clips to [0, width-1] x [0, height-1] (the detections' camera has the processed pair's image size). The
+/// list is then sorted by falling score; equal ones keep the file's order.
+void tidy(std::vector<Detection>& list, int width, int height, DetectionCounters& counters);
 void tidy(std::vector<Detection>& list, int width, int height, int& dropped);
 
 [[nodiscard]] const char* class_name(ObjectClass object_class);
-/// Also KITTI's Person_sitting. false: unknown.
+/// Also the labels' Person_sitting and Person, which are pedestrians. false: unknown; out untouched.
 [[nodiscard]] bool class_from_name(const std::string& name, ObjectClass& out);
-
-/// Ideal detections from labels: the labelled box moved from the label's camera to the detection camera, each edge by
-/// the difference of the 3D box's projections; viewpoint from the companion file or from the 3D box.
-[[nodiscard]] std::map<int, std::vector<Detection>> detections_from_labels(const std::vector<Label>& labels,
-                                                                           const std::vector<int>& frames,
-                                                                           const DriveCameras& cameras);
 
 }  // namespace semtrack::sil
 

@@ -1,6 +1,8 @@
 #include "sil/kitti/drive_files.hpp"
 
+#include <array>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "sil/kitti/text_file.hpp"
@@ -19,6 +21,11 @@ std::int64_t days_from_civil(std::int64_t y, std::int64_t m, std::int64_t d) {
     return era * 146097 + day_of_era - 719468;
 }
 
+std::int64_t days_in_month(std::int64_t y, std::int64_t m) {
+    const std::int64_t next = m == 12 ? days_from_civil(y + 1, 1, 1) : days_from_civil(y, m + 1, 1);
+    return next - days_from_civil(y, m, 1);
+}
+
 bool digits(std::string_view s, std::size_t from, std::size_t count, std::int64_t& out) {
     out = 0;
     if (from + count > s.size()) {
@@ -33,6 +40,19 @@ bool digits(std::string_view s, std::size_t from, std::size_t count, std::int64_
     return true;
 }
 
+/// Rows of unit length, right-handed; files are printed with few digits.
+bool is_rotation(const std::array<double, 9>& R) {
+    constexpr double kTolerance = 1e-2;
+    for (std::size_t r = 0; r < 9; r += 3) {
+        if (std::fabs(R[r] * R[r] + R[r + 1] * R[r + 1] + R[r + 2] * R[r + 2] - 1.0) > kTolerance) {
+            return false;
+        }
+    }
+    const double det =
+        R[0] * (R[4] * R[8] - R[5] * R[7]) - R[1] * (R[3] * R[8] - R[5] * R[6]) + R[2] * (R[3] * R[7] - R[4] * R[6]);
+    return std::fabs(det - 1.0) <= kTolerance;
+}
+
 bool parse_stamp(std::string_view date, std::string_view clock, std::int64_t& time_us) {
     std::int64_t y = 0;
     std::int64_t mo = 0;
@@ -45,7 +65,7 @@ bool parse_stamp(std::string_view date, std::string_view clock, std::int64_t& ti
         !digits(clock, 3, 2, mi) || !digits(clock, 6, 2, s)) {
         return false;
     }
-    if (mo < 1 || mo > 12 || d < 1 || d > 31 || h > 23 || mi > 59 || s > 60) {
+    if (mo < 1 || mo > 12 || d < 1 || d > days_in_month(y, mo) || h > 23 || mi > 59 || s > 60) {
         return false;
     }
     std::int64_t fraction_us = 0;
@@ -130,11 +150,9 @@ std::map<int, RigidTransform> read_poses(const std::filesystem::path& path, cons
                 T.R[3 * r + c] = file.number(row, 4 * r + c);
             }
             T.t[r] = file.number(row, 4 * r + 3);
-            const double n =
-                T.R[3 * r] * T.R[3 * r] + T.R[3 * r + 1] * T.R[3 * r + 1] + T.R[3 * r + 2] * T.R[3 * r + 2];
-            if (std::fabs(n - 1.0) > 1e-2) {
-                file.refuse(row, "not a rotation");
-            }
+        }
+        if (!is_rotation(T.R)) {
+            file.refuse(row, "the first three columns are no rotation");
         }
         if (!numbers.empty() && i >= numbers.size()) {
             file.refuse(row, "more poses than frames");
@@ -145,37 +163,69 @@ std::map<int, RigidTransform> read_poses(const std::filesystem::path& path, cons
     return poses;
 }
 
-std::vector<Label> read_labels(const std::filesystem::path& path, const std::filesystem::path& viewpoints) {
-    std::map<std::pair<int, int>, Viewpoint> views;
-    if (!viewpoints.empty() && std::filesystem::exists(viewpoints)) {
-        const TextFile file(viewpoints, false);
-        for (const TextRow& row : file.rows()) {
-            file.require_words(row, 4, 4);
-            views[{file.integer(row, 0), file.integer(row, 1)}] = {static_cast<std::int8_t>(file.integer(row, 2)),
-                                                                   static_cast<std::int8_t>(file.integer(row, 3))};
-        }
+namespace {
+
+using ObjectKey = std::pair<int, int>;  // frame, track id
+
+std::map<ObjectKey, Viewpoint> read_viewpoints(const std::filesystem::path& path) {
+    std::map<ObjectKey, Viewpoint> views;
+    if (path.empty() || !std::filesystem::exists(path)) {
+        return views;
     }
     const TextFile file(path, false);
-    std::vector<Label> labels;
     for (const TextRow& row : file.rows()) {
-        file.require_words(row, 17, 18);
-        Label l;
-        l.frame = file.integer(row, 0);
-        l.id = file.integer(row, 1);
-        l.type = std::string(row.words[2]);
-        l.truncated = file.number(row, 3);
-        l.occluded = file.integer(row, 4);
-        l.alpha = file.number(row, 5);
-        l.box = {file.number(row, 6), file.number(row, 7), file.number(row, 8), file.number(row, 9)};
-        l.height = file.number(row, 10);
-        l.width = file.number(row, 11);
-        l.length = file.number(row, 12);
-        l.x = file.number(row, 13);
-        l.y = file.number(row, 14);
-        l.z = file.number(row, 15);
-        l.rotation_y = file.number(row, 16);
-        if (l.type != "DontCare" && !(l.height > 0.0 && l.width > 0.0 && l.length > 0.0)) {
-            file.refuse(row, "a box needs positive sizes");
+        file.require_words(row, 4, 4);
+        views[{file.integer(row, 0), file.integer(row, 1)}] = parse_viewpoint(file, row, 2);
+    }
+    return views;
+}
+
+Label parse_label(const TextFile& file, const TextRow& row) {
+    file.require_words(row, 17, 18);
+    Label l;
+    l.frame = file.integer(row, 0);
+    l.id = file.integer(row, 1);
+    l.type = std::string(row.words[2]);
+    l.truncated = file.number(row, 3);
+    l.occluded = file.integer(row, 4);
+    l.alpha = file.number(row, 5);
+    l.box = {file.number(row, 6), file.number(row, 7), file.number(row, 8), file.number(row, 9)};
+    l.height = file.number(row, 10);
+    l.width = file.number(row, 11);
+    l.length = file.number(row, 12);
+    l.x = file.number(row, 13);
+    l.y = file.number(row, 14);
+    l.z = file.number(row, 15);
+    l.rotation_y = file.number(row, 16);
+    if (row.words.size() > 17) {
+        (void)file.number(row, 17);
+    }
+    if (l.type != "DontCare" && !(l.height > 0.0 && l.width > 0.0 && l.length > 0.0)) {
+        file.refuse(row, "a box needs positive sizes");
+    }
+    return l;
+}
+
+}  // namespace
+
+Viewpoint parse_viewpoint(const TextFile& file, const TextRow& row, std::size_t word) {
+    const int h = file.integer(row, word);
+    const int v = file.integer(row, word + 1);
+    if (h < -1 || h > 7 || v < -1 || v > 1 || ((h < 0) != (v < 0))) {
+        file.refuse(row, "viewpoints are 0..7 and 0..1, or -1 -1");
+    }
+    return {static_cast<std::int8_t>(h), static_cast<std::int8_t>(v)};
+}
+
+std::vector<Label> read_labels(const std::filesystem::path& path, const std::filesystem::path& viewpoints) {
+    const std::map<ObjectKey, Viewpoint> views = read_viewpoints(viewpoints);
+    const TextFile file(path, false);
+    std::vector<Label> labels;
+    std::set<ObjectKey> seen;
+    for (const TextRow& row : file.rows()) {
+        Label l = parse_label(file, row);
+        if (l.type != "DontCare" && l.id >= 0 && !seen.insert({l.frame, l.id}).second) {
+            file.refuse(row, "the same frame and id twice");
         }
         const auto view = views.find({l.frame, l.id});
         if (view != views.end()) {

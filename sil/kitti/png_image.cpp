@@ -103,9 +103,9 @@ GreyImage read_png(const std::filesystem::path& path) {
         throw InputError(path.string() + ": cannot be read");
     }
     png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, on_error, on_warning);
-    png_infop info = png_create_info_struct(png);
+    png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
     Raw raw;
-    const bool ok = decode(png, info, file.get(), raw);
+    const bool ok = info != nullptr && decode(png, info, file.get(), raw);
     png_destroy_read_struct(&png, &info, nullptr);
     if (!ok && (raw.width > static_cast<png_uint_32>(kMaxImageWidth) ||
                 raw.height > static_cast<png_uint_32>(kMaxImageHeight))) {
@@ -125,13 +125,13 @@ void write_png(const std::filesystem::path& path, int width, int height, int cha
         throw std::runtime_error(path.string() + ": cannot be written");
     }
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, on_error, on_warning);
-    png_infop info = png_create_info_struct(png);
+    png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
     std::vector<png_bytep> rows(static_cast<std::size_t>(height));
     for (int y = 0; y < height; ++y) {
         rows[static_cast<std::size_t>(y)] =
             const_cast<png_bytep>(pixels + static_cast<std::ptrdiff_t>(y) * width * channels);  // libpng's signature
     }
-    const bool ok = encode(png, info, file.get(), width, height, channels, rows);
+    const bool ok = info != nullptr && encode(png, info, file.get(), width, height, channels, rows);
     png_destroy_write_struct(&png, &info);
     if (!ok) {
         throw std::runtime_error(path.string() + ": cannot be written");

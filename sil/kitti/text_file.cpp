@@ -36,13 +36,23 @@ std::vector<std::string_view> split(std::string_view line) {
 
 }  // namespace
 
+std::string quoted_word(std::string_view word) {
+    constexpr std::size_t kLongest = 40;
+    std::string out = "'";
+    for (const char c : word.substr(0, kLongest)) {
+        out += c >= ' ' && c <= '~' ? c : '?';
+    }
+    return out + (word.size() > kLongest ? "...'" : "'");
+}
+
 TextFile::TextFile(const std::filesystem::path& path, bool counted) : name_(path.string()) {
     std::ifstream in(path, std::ios::binary);
     if (!in || std::filesystem::is_directory(path)) {
         throw InputError(name_ + ": cannot be read");
     }
     text_.assign(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
-    if (text_.compare(0, 3, "\xEF\xBB\xBF") == 0 || text_.compare(0, 2, "\xFF\xFE") == 0) {
+    if (text_.compare(0, 3, "\xEF\xBB\xBF") == 0 || text_.compare(0, 2, "\xFF\xFE") == 0 ||
+        text_.compare(0, 2, "\xFE\xFF") == 0) {
         refuse_line(1, "starts with a byte-order mark");
     }
     int line = 0;
@@ -64,6 +74,7 @@ TextFile::TextFile(const std::filesystem::path& path, bool counted) : name_(path
         }
         begin = end + 1;
     }
+    lines_ = line;
 }
 
 void TextFile::refuse_line(int line, const std::string& what) const {
@@ -72,6 +83,10 @@ void TextFile::refuse_line(int line, const std::string& what) const {
 
 void TextFile::refuse(const TextRow& row, const std::string& what) const {
     refuse_line(row.line, what);
+}
+
+void TextFile::refuse_end(const std::string& what) const {
+    refuse_line(lines_ > 0 ? lines_ : 1, what);
 }
 
 void TextFile::require_words(const TextRow& row, std::size_t least, std::size_t most) const {
@@ -88,7 +103,7 @@ double TextFile::number(const TextRow& row, std::size_t word) const {
     double value = 0.0;
     const auto [end, error] = std::from_chars(w.data(), w.data() + w.size(), value);
     if (error != std::errc{} || end != w.data() + w.size() || !std::isfinite(value)) {
-        refuse(row, "'" + std::string(row.words[word]) + "' is not a finite number");
+        refuse(row, quoted_word(row.words[word]) + " is not a finite number");
     }
     return value;
 }
@@ -96,7 +111,7 @@ double TextFile::number(const TextRow& row, std::size_t word) const {
 int TextFile::integer(const TextRow& row, std::size_t word) const {
     const double value = number(row, word);
     if (std::floor(value) != value || std::fabs(value) > 2e9) {
-        refuse(row, "'" + std::string(row.words[word]) + "' is not a whole number");
+        refuse(row, quoted_word(row.words[word]) + " is not a whole number");
     }
     return static_cast<int>(value);
 }

@@ -17,10 +17,13 @@ struct TextRow {
 
 class TextFile {
 public:
-    /// Throws InputError when it cannot be read or starts with a byte-order mark.
+    /// Throws InputError when it cannot be read or starts with a byte-order mark. Rows keep pointing into this object.
     /// counted: the rows' numbers mean something (times, poses), so a blank line between rows is refused.
     TextFile(const std::filesystem::path& path, bool counted);
     [[nodiscard]] const std::vector<TextRow>& rows() const { return rows_; }
+
+    TextFile(const TextFile&) = delete;
+    TextFile& operator=(const TextFile&) = delete;
 
     /// Whole, finite number; otherwise InputError "FILE:LINE: ...".
     [[nodiscard]] double number(const TextRow& row, std::size_t word) const;
@@ -28,12 +31,18 @@ public:
     void require_words(const TextRow& row, std::size_t least, std::size_t most) const;
     [[noreturn]] void refuse(const TextRow& row, const std::string& what) const;
     [[noreturn]] void refuse_line(int line, const std::string& what) const;
+    /// Something the file should hold was not found by its end.
+    [[noreturn]] void refuse_end(const std::string& what) const;
 
 private:
     std::string name_;
     std::string text_;
+    int lines_{0};
     std::vector<TextRow> rows_;
 };
+
+/// A word of a file as it may stand in a message: printable and short, whatever the file holds.
+[[nodiscard]] std::string quoted_word(std::string_view word);
 
 }  // namespace semtrack::sil
 

@@ -10,6 +10,7 @@
 
 #include "math/trig.hpp"
 #include "model/box_geometry.hpp"
+#include "sil/kitti/label_detections.hpp"
 #include "sil/kitti/text_file.hpp"
 
 namespace semtrack::sil {
@@ -104,8 +105,10 @@ Label label_of(const Fields& tracklet, const Fields& pose, const Pose& T_c0_velo
     if (!(l.height > 0.0) || !(l.width > 0.0) || !(l.length > 0.0)) {
         file.refuse(tag, "a box needs positive sizes");
     }
-    const Vec3 bottom =
-        T_c0_velo * Vec3(field(pose, "tx", file, tag), field(pose, "ty", file, tag), field(pose, "tz", file, tag));
+    const double tx = field(pose, "tx", file, tag);
+    const double ty = field(pose, "ty", file, tag);
+    const double tz = field(pose, "tz", file, tag);
+    const Vec3 bottom = T_c0_velo * Vec3(tx, ty, tz);
     const SinCos rz = sin_cos(field(pose, "rz", file, tag));
     const Vec3 heading = T_c0_velo.R * Vec3(rz.cos, rz.sin, 0.0);
     l.x = bottom(0);
@@ -121,14 +124,11 @@ Label label_of(const Fields& tracklet, const Fields& pose, const Pose& T_c0_velo
 
 /// false: not in the picture.
 bool add_box(Label& l, const DriveCameras& cameras) {
-    const SinCos ry = sin_cos(l.rotation_y);
-    Pose T;
-    T.R << ry.cos, ry.sin, 0.0, 0.0, 0.0, -1.0, -ry.sin, ry.cos, 0.0;
+    Pose T = label_pose(l);
     for (int i = 0; i < 3; ++i) {
         const auto k = static_cast<std::size_t>(i);
-        T.t(i) = cameras.t_label_c[k] - cameras.t_c0_c[k];
+        T.t(i) += cameras.t_label_c[k] - cameras.t_c0_c[k];
     }
-    T.t += Vec3(l.x, l.y - 0.5 * l.height, l.z);
     Box2d whole;
     if (projected_box(cameras.label_camera, T, Vec3(l.length, l.width, l.height), whole) != Status::kOk ||
         !clip_box(whole, cameras.calibration.width, cameras.calibration.height, l.box)) {

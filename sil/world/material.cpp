@@ -281,6 +281,9 @@ float reflectance(const Surface& surface, float x, float y, float z, float footp
 }
 
 bool leaf_at(const Surface& surface, float x, float y, float z, float footprint, float rim) {
+    if (rim < 0.15F) {
+        return true;
+    }  // the dense middle
     const CubePoint m = on_cube(x, y, z);
     const float n = octaves2(m.s, m.t, 0.5F * footprint, {0.4F, 4, 0.9F}, surface.seed + 91U + m.side);
     return n > 1.9F * rim - 1.0F;

@@ -193,6 +193,11 @@ void add_ends(Builder& b) {
                 -0.5 * kPi);
         add_tree(b, 11.0 * k + 3.0, b.z1 + 15.0, between(h, 3U, 7.0, 12.0), between(h, 4U, 2.0, 3.4), h);
     }
+    // Woods behind the houses: no view of the horizon between them.
+    for (const double x : {-75.0, 75.0}) {
+        const Surface woods{Material::kLeaves, 0.2F, s.seed + 6U, {}};
+        add_strip(b, x - 4.0, x + 4.0, b.z0, b.z1 + 40.0, 7.0, 8.0, woods);
+    }
     for (const bool right : {true, false}) {
         for (const Gap& g : right ? s.gaps_right : s.gaps_left) {
             const std::uint32_t h = hash(s.seed, static_cast<std::uint32_t>(g.from_z + 500.0));

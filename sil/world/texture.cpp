@@ -19,12 +19,6 @@ float smooth(float x) {
     return x * x * (3.0F - 2.0F * x);
 }
 
-// 0 where a cell is below 0.7 footprints, 1 from 1.5 footprints on.
-float fade(float cell, float footprint) {
-    const float w = (cell - 0.7F * footprint) / (0.8F * footprint + 1e-9F);
-    return w < 0.0F ? 0.0F : (w > 1.0F ? 1.0F : w);
-}
-
 }  // namespace
 
 float noise2(float s, float t, std::uint32_t seed) {
@@ -44,17 +38,16 @@ float noise2(float s, float t, std::uint32_t seed) {
 float octaves2(float s, float t, float footprint, const Octaves& o, std::uint32_t seed) {
     float sum = 0.0F;
     float amplitude = 1.0F;
-    float cell = o.cell;
-    for (int k = 0; k < o.count; ++k) {
-        const float w = fade(cell, footprint);
-        if (w <= 0.0F) {
-            break;
-        }
-        const float inverse = 1.0F / cell;
-        sum += amplitude * w *
-               (2.0F * noise2(s * inverse, t * inverse, seed + static_cast<std::uint32_t>(k) * 0x51ed270bU) - 1.0F);
+    // An octave's weight is 0 where its cells are below 0.7 footprints and 1 from 1.5 footprints on.
+    float weight = o.cell / (0.8F * footprint + 1e-9F);
+    float inverse = 1.0F / o.cell;
+    for (int k = 0; k < o.count && weight > 0.875F; ++k) {
+        const float w = weight < 1.875F ? weight - 0.875F : 1.0F;
+        const float n = noise2(s * inverse, t * inverse, seed + static_cast<std::uint32_t>(k) * 0x51ed270bU);
+        sum += amplitude * w * (2.0F * n - 1.0F);
         amplitude *= o.gain;
-        cell *= 0.5F;
+        weight *= 0.5F;
+        inverse *= 2.0F;
     }
     return sum;
 }

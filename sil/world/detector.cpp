@@ -105,7 +105,8 @@ std::vector<Detection> detect(const Scene& scene, const Calibration& calibration
                 continue;
             }
         }
-        if (!clip_box(Box2d(d.box), calibration.width, calibration.height, d.box) || d.box.right <= d.box.left) {
+        if (!clip_box(Box2d(d.box), calibration.width, calibration.height, d.box) || d.box.right <= d.box.left ||
+            d.box.bottom <= d.box.top) {
             continue;
         }
         out.push_back(d);

@@ -26,6 +26,7 @@ std::vector<Phase> swing_left(double wait_s, double speed, double arc_s, double 
 
 Scenario make_street_scenario() {
     Scenario s = make_empty_scenario();
+    s.detector = DetectorErrors{};
     const double left_lane = -s.street.lane_width;
     // 1 drives ahead, brakes and turns off to the right; 2 comes towards us; 3 overtakes.
     s.users.push_back(make_user(1, ObjectClass::kCar,
@@ -52,11 +53,13 @@ Scenario make_empty_scenario() {
     s.ego.motion =
         motion(0.0, 0.0, 0.0, 7.5, {{1.5, 0.2, 0.0}, {1.5, -1.6, 0.0}, {1.0, 0.0, 0.012}, {1.0, 0.4, -0.012}});
     s.imaging.right_offset = -5.0;
+    s.detector.false_positives = 0.0;
     return s;
 }
 
 Scenario make_traffic_scenario() {
     Scenario s = make_empty_scenario();
+    s.detector = DetectorErrors{};
     s.ego.motion = motion(0.0, 0.0, 0.0, 6.0);
     const double left = -s.street.lane_width;
     s.users.push_back(make_user(1, ObjectClass::kTruck, motion(0.0, 12.0, 0.0, 6.2), 201U));

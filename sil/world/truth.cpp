@@ -91,6 +91,9 @@ Label make_label(const Scene& scene, const Calibration& calibration, std::size_t
     l.alpha = wrap_angle(l.rotation_y - atan2_rad(l.x, l.z));
     if (u.object_class != ObjectClass::kPedestrian) {
         l.viewpoint = visible_faces(truth.T_c_o, truth.size_m);
+        if (l.viewpoint.horizontal < 0) {
+            l.viewpoint = Viewpoint{};  // the camera stands over the box: no class at all
+        }
     }
     return l;
 }

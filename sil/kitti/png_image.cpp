@@ -62,22 +62,6 @@ bool decode(png_structp png, png_infop info, std::FILE* file, Raw& raw) {
     return true;
 }
 
-bool encode(png_structp png, png_infop info, std::FILE* file, int width, int height, int channels,
-            std::vector<png_bytep>& rows) {
-    if (setjmp(png_jmpbuf(png)) != 0) {
-        return false;
-    }
-    png_init_io(png, file);
-    png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8,
-                 channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_set_compression_level(png, 3);
-    png_write_info(png, info);
-    png_write_image(png, rows.data());
-    png_write_end(png, nullptr);
-    return true;
-}
-
 GreyImage to_grey(const Raw& raw) {
     GreyImage out;
     out.width = static_cast<int>(raw.width);
@@ -117,25 +101,6 @@ GreyImage read_png(const std::filesystem::path& path) {
         throw InputError(path.string() + ": not a whole PNG image");
     }
     return to_grey(raw);
-}
-
-void write_png(const std::filesystem::path& path, int width, int height, int channels, const std::uint8_t* pixels) {
-    const File file(std::fopen(path.c_str(), "wb"));
-    if (!file) {
-        throw std::runtime_error(path.string() + ": cannot be written");
-    }
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, on_error, on_warning);
-    png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
-    std::vector<png_bytep> rows(static_cast<std::size_t>(height));
-    for (int y = 0; y < height; ++y) {
-        rows[static_cast<std::size_t>(y)] =
-            const_cast<png_bytep>(pixels + static_cast<std::ptrdiff_t>(y) * width * channels);  // libpng's signature
-    }
-    const bool ok = info != nullptr && encode(png, info, file.get(), width, height, channels, rows);
-    png_destroy_write_struct(&png, &info);
-    if (!ok) {
-        throw std::runtime_error(path.string() + ": cannot be written");
-    }
 }
 
 }  // namespace semtrack::sil

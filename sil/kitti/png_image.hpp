@@ -3,9 +3,7 @@
 #ifndef SEMTRACK_SIL_KITTI_PNG_IMAGE_HPP
 #define SEMTRACK_SIL_KITTI_PNG_IMAGE_HPP
 
-#include <cstdint>
 #include <filesystem>
-#include <vector>
 
 #include "sil/sequence.hpp"
 
@@ -13,8 +11,6 @@ namespace semtrack::sil {
 
 /// Throws InputError with the file's name when it is no whole PNG or larger than the capacity.
 [[nodiscard]] GreyImage read_png(const std::filesystem::path& path);
-/// 1 or 3 channels. Throws std::runtime_error when the file cannot be written.
-void write_png(const std::filesystem::path& path, int width, int height, int channels, const std::uint8_t* pixels);
 
 }  // namespace semtrack::sil
 

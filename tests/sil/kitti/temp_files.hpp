@@ -3,16 +3,27 @@
 #define SEMTRACK_TESTS_SIL_KITTI_TEMP_FILES_HPP
 
 #include <gtest/gtest.h>
+#include <png.h>
 
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
-#include "sil/kitti/png_image.hpp"
 #include "sil/sequence.hpp"
 
 namespace semtrack::sil {
+
+/// channels: 1 grey, 3 RGB.
+inline void write_png(const std::filesystem::path& path, int width, int height, int channels,
+                      const std::uint8_t* pixels) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(width);
+    image.height = static_cast<png_uint_32>(height);
+    image.format = channels == 1 ? PNG_FORMAT_GRAY : PNG_FORMAT_RGB;
+    ASSERT_NE(png_image_write_to_file(&image, path.c_str(), 0, pixels, width * channels, nullptr), 0) << image.message;
+}
 
 class TempFiles : public testing::Test {
 protected:

@@ -165,10 +165,5 @@ TEST_F(PngImages, ImagesBeyondTheCapacityAreRefused) {
     EXPECT_REFUSED(read_png(write_grey("high.png", 8, kMaxImageHeight + 1, 1)), "high.png: image of 8 x 385 px");
 }
 
-TEST_F(PngImages, WritingIntoAMissingFolderThrows) {
-    const std::uint8_t pixel = 0;
-    EXPECT_THROW(write_png(at("no/such/folder.png"), 1, 1, 1, &pixel), std::runtime_error);
-}
-
 }  // namespace
 }  // namespace semtrack::sil

@@ -39,7 +39,11 @@ const char* movement_text(MovementState movement) {
 std::string fixed(double value, int digits) {
     std::array<char, 64> text{};
     const int n = std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-    return n > 0 && n < static_cast<int>(text.size()) ? text.data() : "?";
+    if (n <= 0 || n >= static_cast<int>(text.size())) {
+        return "?";
+    }
+    const std::string out(text.data());
+    return out[0] == '-' && out.find_first_not_of("-0.") == std::string::npos ? out.substr(1) : out;
 }
 
 void draw_plan_box(Canvas& canvas, const PlanView& view, const PlanBox& box, Colour colour, bool dashed, bool heading) {

@@ -25,7 +25,7 @@ inline constexpr Colour kBackgroundFeature{70, 200, 120};
 [[nodiscard]] const char* status_text(TrackStatus status);
 [[nodiscard]] const char* status_text(EgoStatus status);
 [[nodiscard]] const char* movement_text(MovementState movement);
-/// printf's %.Nf.
+/// printf's %.Nf; no minus before a zero.
 [[nodiscard]] std::string fixed(double value, int digits);
 
 /// A box on the ground plane: centre, heading, length, width; heading from x towards y.

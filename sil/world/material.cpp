@@ -54,10 +54,13 @@ float asphalt(const Surface& f, const SurfacePoint& at) {
     const float foot = larger(at.fs, at.ft);
     float grain = 0.07F * octaves2(at.s, at.t, foot, {2.0F, 3, 0.8F}, f.seed);
     grain += 0.17F * octaves2(at.s, at.t, foot, {0.14F, 5, 0.97F}, f.seed + 1U);
-    // Cracks: zero line of a smooth noise, a few centimetres wide.
-    const float n =
-        noise2(at.s * 0.45F, at.t * 0.45F, f.seed + 5U) + 0.12F * noise2(at.s * 2.3F, at.t * 2.3F, f.seed + 6U) - 0.56F;
-    const float crack = cover(n, 0.05F + 0.6F * foot, -0.008F, 0.008F);
+    // Cracks: zero line of a smooth noise, a few centimetres wide; out of sight where a sample covers more than that.
+    float crack = 0.0F;
+    if (foot < 0.08F) {
+        const float n = noise2(at.s * 0.45F, at.t * 0.45F, f.seed + 5U) +
+                        0.12F * noise2(at.s * 2.3F, at.t * 2.3F, f.seed + 6U) - 0.56F;
+        crack = cover(n, 0.05F + 0.6F * foot, -0.008F, 0.008F) * (1.0F - foot / 0.08F);
+    }
     float r = f.tone * (1.0F + grain) * repairs(f, at) * (1.0F - 0.7F * crack);
     const float paint = lane_marks(f, at);
     if (paint > 0.0F) {

@@ -166,10 +166,18 @@ void trace_ellipsoid(const View& view, const Target& target, double du, double r
     const int first = static_cast<int>(std::ceil(target.u0 - du < 0.0 ? 0.0 : target.u0 - du));
     const int limit =
         static_cast<int>(std::floor(target.u1 - du > view.width - 1.0 ? view.width - 1.0 : target.u1 - du));
+    // The ray d = d0 + x d1 of column x: its products are polynomials of x.
+    const Vec3 d0 = target.to_sphere * Vec3(view.ray_x(du), ray_y, 1.0);
+    const Vec3 d1 = target.to_sphere.col(0) / view.fx;
+    const double a0 = d0.dot(d0);
+    const double a1 = 2.0 * d0.dot(d1);
+    const double a2 = d1.dot(d1);
+    const double b0 = target.origin.dot(d0);
+    const double b1 = target.origin.dot(d1);
     for (int x = first; x <= limit; ++x) {
-        const Vec3 d = target.to_sphere * Vec3(view.ray_x(x + du), ray_y, 1.0);
-        const double a = d.dot(d);
-        const double b = target.origin.dot(d);
+        const double column = x;
+        const double a = a0 + column * (a1 + column * a2);
+        const double b = b0 + column * b1;
         const double disc = b * b - a * c;
         if (disc <= 0.0 || b >= 0.0) {
             continue;
@@ -180,7 +188,7 @@ void trace_ellipsoid(const View& view, const Target& target, double du, double r
             continue;
         }
         if (piece.ragged) {
-            const Vec3 on = target.origin + depth * d;  // unit vector: also the normal
+            const Vec3 on = target.origin + depth * (d0 + column * d1);  // unit vector: also the normal
             const double facing = std::sqrt(disc) / std::sqrt(a);
             const Vec3 metres = on.cwiseProduct(piece.radii);
             if (!leaf_at(piece.skin, static_cast<float>(metres(0)), static_cast<float>(metres(1)),

@@ -61,8 +61,8 @@ TEST(WorldRenderer, HasTheSameBytesOnEveryTarget) {
     GreyImage left;
     GreyImage right;
     Renderer(scene, small_calibration(s)).render(0, left, right);
-    EXPECT_EQ(hash_of(left), 5362685353633619209ULL);
-    EXPECT_EQ(hash_of(right), 7101124800706363142ULL);
+    EXPECT_EQ(hash_of(left), 11172297900096913654ULL);
+    EXPECT_EQ(hash_of(right), 11832682253223012950ULL);
 }
 
 TEST(WorldRenderer, RoadHasTheDisparityOfItsGeometryToATwentiethOfAPixel) {

@@ -15,6 +15,7 @@ inline Scenario quiet_street() {
     s.ego = Ego{};
     s.ego.pitch_amplitude = s.ego.roll_amplitude = s.ego.height_amplitude = 0.0;
     s.imaging = Imaging{};
+    s.detector = DetectorErrors{};
     s.imaging.noise_sigma = 0.0;
     return s;
 }

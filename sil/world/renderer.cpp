@@ -273,9 +273,10 @@ void render_view(const Scene& scene, const FrameScene& frame, const View& view, 
     out.width = view.width;
     out.height = view.height;
     out.pixels.assign(static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height), 0U);
-    on_threads(threads, [&](int thread) {
+    const int step = threads <= 1 ? 1 : 2;
+    on_threads(step, [&](int thread) {
         RowTracer tracer(view, targets, false);
-        for (int row = thread; row < view.height; row += threads) {
+        for (int row = thread; row < view.height; row += step) {
             const RowSamples& samples = tracer.trace(row);
             shade_row(view, tracer.grid(), samples, shader, sensor, row,
                       out.pixels.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(view.width));

@@ -30,7 +30,7 @@ class Renderer {
 public:
     explicit Renderer(const Scene& scene, const Calibration& calibration) : scene_(scene), calibration_(calibration) {}
 
-    /// Cost on one core: about 0.4 s a pair. The bytes do not depend on `threads` (1 or 2).
+    /// Cost on one core: about 0.5 s a pair. The bytes do not depend on `threads` (1 or 2; others count as the nearer).
     void render(int frame, GreyImage& left, GreyImage& right, int threads = 2) const;
     /// One per road user, in the scenario's order; no shading, so about ten times cheaper than an image.
     [[nodiscard]] std::vector<Silhouette> silhouettes(int frame, int threads = 2) const;

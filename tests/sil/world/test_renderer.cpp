@@ -51,6 +51,10 @@ TEST(WorldRenderer, DrawsTheSameFrameTwiceTheSameAndIndependentOfThreads) {
     renderer.render(2, left2, right2, 2);
     EXPECT_EQ(left1.pixels, left2.pixels);
     EXPECT_EQ(right1.pixels, right2.pixels);
+    for (const int threads : {0, 7}) {
+        renderer.render(2, left2, right2, threads);
+        EXPECT_EQ(left1.pixels, left2.pixels) << threads;
+    }
     renderer.render(1, left2, right2, 1);
     EXPECT_NE(left1.pixels, left2.pixels);
 }

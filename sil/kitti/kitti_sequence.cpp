@@ -57,7 +57,8 @@ public:
             return static_cast<std::int64_t>(frame) * kTrackingPeriod_us;
         }
         if (frame < 0 || static_cast<std::size_t>(frame) >= times_.size()) {
-            throw InputError(paths_.times.string() + ": has " + std::to_string(times_.size()) + " rows, frame " +
+            // Counted rows: the number of the last one is its line.
+            throw InputError(paths_.times.string() + ":" + std::to_string(times_.size()) + ": ends here, frame " +
                              std::to_string(frame) + " has no time");
         }
         return times_[static_cast<std::size_t>(frame)];
@@ -113,7 +114,7 @@ private:
         const fs::path file = options.poses.empty() ? paths_.poses : options.poses;
         const std::map<int, RigidTransform> rows = options.poses.empty() ? truth_ : poses_of(paths_, file);
         if (rows.empty()) {
-            throw InputError(file.string() + ": without images the frames are the rows of a poses file");
+            throw InputError(file.string() + ":1: has no rows: without images the frames are the rows of a poses file");
         }
         first_ = rows.begin()->first;
         last_ = rows.rbegin()->first;
@@ -126,7 +127,7 @@ private:
         }
         times_ = paths_.stamps ? read_timestamps(paths_.times) : read_times(paths_.times);
         if (times_.empty()) {
-            throw InputError(paths_.times.string() + ": has no rows");
+            throw InputError(paths_.times.string() + ":1: has no rows");
         }
         (void)time_us(last_);
     }

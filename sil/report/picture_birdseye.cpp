@@ -30,7 +30,7 @@ void draw_rings(Canvas& canvas, const PlanView& view) {
     for (int r = kStep_m; r <= kFarthest_m; r += kStep_m) {
         canvas.circle(view.at(0, 0), r * view.px_per_m, kFaint, 1.0, r % 50 == 0 ? 1.0 : 0.6);
         const CanvasPoint p = view.at(r, 0);
-        canvas.text(static_cast<int>(p.x) + 3, static_cast<int>(p.y) + 3, std::to_string(r), kFaint);
+        canvas.text(pixel(p.x) + 3, pixel(p.y) + 3, std::to_string(r), kFaint);
     }
     canvas.line(view.at(0, 0), view.at(kFarthest_m, 0), kFaint, 1.0, 0.5);
 }
@@ -50,13 +50,14 @@ void draw_object(Canvas& canvas, const PlanView& view, const TrackedObject& o, c
     canvas.line(view.at(x, y), view.at(x + o.velocity_v[0], y + o.velocity_v[1]), colour, 1.0, 0.8);
     const CanvasPoint p = view.at(x, y - 0.5 * o.size[1]);
     const std::string name = "#" + std::to_string(o.id) + " " + fixed(o.speed, 1) + " " + movement_text(o.movement);
-    if (std::isfinite(p.x) && std::isfinite(p.y) && std::fabs(p.x) < 1e5 && std::fabs(p.y) < 1e5) {
-        canvas.text(static_cast<int>(p.x) - 10, static_cast<int>(p.y) + 8, name, colour);
-    }
+    canvas.text(pixel(p.x) - 10, pixel(p.y) + 8, name, colour);
 }
 
 void extend(const Path& path, std::array<double, 4>& box) {
     for (const auto& p : path) {
+        if (!std::isfinite(p[0]) || !std::isfinite(p[1])) {
+            continue;
+        }
         box = {std::min(box[0], p[0]), std::min(box[1], p[1]), std::max(box[2], p[0]), std::max(box[3], p[1])};
     }
 }
@@ -131,12 +132,12 @@ void draw_grid(Canvas& canvas, const PlanView& view) {
     for (double x = std::ceil(-view.u0 / view.px_per_m / step_m) * step_m; x <= right; x += step_m) {
         const CanvasPoint p = view.at(x, 0);
         canvas.line({p.x, 0.0}, {p.x, canvas.height() - 1.0}, kFaint, 1.0, 0.5);
-        canvas.text(static_cast<int>(p.x) + 2, canvas.height() - 10, fixed(x, 0), kFaint);
+        canvas.text(pixel(p.x) + 2, canvas.height() - 10, fixed(x, 0), kFaint);
     }
     for (double y = std::ceil(bottom / step_m) * step_m; y <= view.v0 / view.px_per_m; y += step_m) {
         const CanvasPoint p = view.at(0, y);
         canvas.line({0.0, p.y}, {canvas.width() - 1.0, p.y}, kFaint, 1.0, 0.5);
-        canvas.text(2, static_cast<int>(p.y) + 2, fixed(y, 0), kFaint);
+        canvas.text(2, pixel(p.y) + 2, fixed(y, 0), kFaint);
     }
 }
 
@@ -155,9 +156,7 @@ Canvas draw_map(const PlanHistory& history, const Path& ego_truth, const std::ve
     for (const auto& [id, track] : history.tracks) {
         draw_plan_box(canvas, fitted.view, track.last, colour_of_track(id), false, track.has_heading);
         const CanvasPoint p = fitted.view.at(track.last.x, track.last.y);
-        if (std::isfinite(p.x) && std::isfinite(p.y) && std::fabs(p.x) < 1e5 && std::fabs(p.y) < 1e5) {
-            canvas.text(static_cast<int>(p.x) + 6, static_cast<int>(p.y) - 10, std::to_string(id), colour_of_track(id));
-        }
+        canvas.text(pixel(p.x) + 6, pixel(p.y) - 10, std::to_string(id), colour_of_track(id));
     }
     draw_trail(canvas, fitted.view, history.ego, kEgoColour, 1.6, false);
     canvas.label(4, 4, "world frame, m; ego white" + std::string(ego_truth.empty() ? "" : ", its truth grey"), kInk);

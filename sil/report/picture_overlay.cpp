@@ -100,9 +100,9 @@ void draw_name(Canvas& canvas, const TrackedObject& o, Colour colour) {
     const std::string state = fixed(o.speed, 1) + " m/s" + (o.status == TrackStatus::kMeasured ? "" : " ") +
                               (o.status == TrackStatus::kMeasured ? "" : status_text(o.status));
     const int width = std::max(Canvas::text_width(name), Canvas::text_width(state));
-    const int x = std::clamp(static_cast<int>(o.box.left) + 2, 2, std::max(canvas.width() - width - 3, 2));
+    const int x = std::clamp(pixel(o.box.left) + 2, 2, std::max(canvas.width() - width - 3, 2));
     const int lines = 2 * (Canvas::text_height() + 3);
-    const int y = std::clamp(static_cast<int>(o.box.top) - lines - 1, 14, std::max(canvas.height() - lines - 2, 14));
+    const int y = std::clamp(pixel(o.box.top) - lines - 1, 14, std::max(canvas.height() - lines - 2, 14));
     canvas.label(x, y, name, colour);
     canvas.label(x, y + Canvas::text_height() + 3, state, colour);
 }

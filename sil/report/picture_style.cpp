@@ -36,6 +36,11 @@ const char* movement_text(MovementState movement) {
     return kText[static_cast<int>(movement)];
 }
 
+int pixel(double value) {
+    constexpr double kFar = 1e6;
+    return std::isfinite(value) ? static_cast<int>(std::fmax(-kFar, std::fmin(kFar, value))) : static_cast<int>(-kFar);
+}
+
 std::string fixed(double value, int digits) {
     std::array<char, 64> text{};
     const int n = std::snprintf(text.data(), text.size(), "%.*f", digits, value);

@@ -25,6 +25,8 @@ inline constexpr Colour kBackgroundFeature{70, 200, 120};
 [[nodiscard]] const char* status_text(TrackStatus status);
 [[nodiscard]] const char* status_text(EgoStatus status);
 [[nodiscard]] const char* movement_text(MovementState movement);
+/// For places of text: any value, also one that is not finite, becomes a pixel number that can be reckoned with.
+[[nodiscard]] int pixel(double value);
 /// printf's %.Nf; no minus before a zero.
 [[nodiscard]] std::string fixed(double value, int digits);
 

@@ -121,7 +121,7 @@ TEST_F(KittiSequences, ImagesOfAnotherSizeAreRefusedByName) {
 TEST_F(KittiSequences, FramesBeyondTheTimesAreRefused) {
     make_odometry(3);
     write("sequences/06/times.txt", "0\n0.1\n");
-    EXPECT_REFUSED(open_kitti_sequence(options("odometry", "06")), "times.txt: has 2 rows, frame 2 has no time");
+    EXPECT_REFUSED(open_kitti_sequence(options("odometry", "06")), "times.txt:2: ends here, frame 2 has no time");
     std::filesystem::remove(at("sequences/06/times.txt"));
     EXPECT_REFUSED(open_kitti_sequence(options("odometry", "06")), "times.txt");
 }
@@ -228,7 +228,7 @@ TEST_F(KittiSequences, WithoutImagesTheFramesAreTheRowsOfThePosesFile) {
     EXPECT_REFUSED(open_kitti_sequence(o), "--image-size");
     o.width = 1242;
     o.poses = write("ego.txt", "");
-    EXPECT_REFUSED(open_kitti_sequence(o), "ego.txt");
+    EXPECT_REFUSED(open_kitti_sequence(o), "ego.txt:1: ");
     EXPECT_REFUSED(open_kitti_sequence(options("tracking", "0010")), at("training/image_02/0010").string());
 }
 

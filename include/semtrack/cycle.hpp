@@ -47,6 +47,8 @@ public:
     [[nodiscard]] const CycleCounters& counters() const { return counters_; }
 
 private:
+    void publish(const Output& output, std::int64_t time_us);
+
     CyclePorts ports_{};
     CanEncoder encoder_{};
     CanList frames_{};

@@ -10,6 +10,8 @@ namespace {
 
 // Pivots of the reduced matrix are relative to the diagonal before elimination: below, the system is singular.
 constexpr double kMinPivotRatio = 1e-13;
+// Damping of a point that is singular by itself (seen once by one camera): it must not hold its frame.
+constexpr double kPointDamping = 1e-7;
 
 }  // namespace
 
@@ -18,6 +20,7 @@ void NormalEquations::clear(int frames, int points, bool shared) {
     points_ = points < kSolverPoints ? points : kSolverPoints;
     shared_ = shared;
     size_ = kFrameBlock * frames_ + (shared ? kSharedBlock : 0);
+    factored_ = false;
     for (int r = 0; r < size_; ++r) {
         for (int c = 0; c < size_; ++c) {
             B(r, c) = 0.0;
@@ -33,6 +36,7 @@ void NormalEquations::clear(int frames, int points, bool shared) {
 }
 
 void NormalEquations::add_frame(int i, const Mat6& H, const Vec6& g) {
+    factored_ = false;
     const int at = kFrameBlock * i;
     for (int r = 0; r < kFrameBlock; ++r) {
         for (int c = r; c < kFrameBlock; ++c) {
@@ -43,6 +47,7 @@ void NormalEquations::add_frame(int i, const Mat6& H, const Vec6& g) {
 }
 
 void NormalEquations::add_frame_pair(int i, int j, const Mat6& H_ij) {
+    factored_ = false;
     for (int r = 0; r < kFrameBlock; ++r) {
         for (int c = 0; c < kFrameBlock; ++c) {
             B(kFrameBlock * i + r, kFrameBlock * j + c) += H_ij(r, c);
@@ -51,6 +56,7 @@ void NormalEquations::add_frame_pair(int i, int j, const Mat6& H_ij) {
 }
 
 void NormalEquations::add_shared(const Mat3& H, const Vec3& g) {
+    factored_ = false;
     const int at = kFrameBlock * frames_;
     for (int r = 0; r < kSharedBlock; ++r) {
         for (int c = r; c < kSharedBlock; ++c) {
@@ -61,6 +67,7 @@ void NormalEquations::add_shared(const Mat3& H, const Vec3& g) {
 }
 
 void NormalEquations::add_frame_shared(int i, const Mat6x3& H_is) {
+    factored_ = false;
     const int at = kFrameBlock * frames_;
     for (int r = 0; r < kFrameBlock; ++r) {
         for (int c = 0; c < kSharedBlock; ++c) {
@@ -70,19 +77,76 @@ void NormalEquations::add_frame_shared(int i, const Mat6x3& H_is) {
 }
 
 void NormalEquations::add_point(int p, const Mat3& H, const Vec3& g) {
+    factored_ = false;
     C_[static_cast<std::size_t>(p)] += H;
     w_[static_cast<std::size_t>(p)] += g;
 }
 
 void NormalEquations::add_frame_point(int i, int p, const Mat6x3& H_ip) {
+    factored_ = false;
     const auto bit = static_cast<std::uint16_t>(1U << static_cast<unsigned>(i));
     std::uint16_t& seen = seen_[static_cast<std::size_t>(p)];
-    Mat6x3& block = E(p, i);
+    PoseBlock& block = Et(p, i);
     if ((seen & bit) == 0U) {
-        block = H_ip;
+        block.fill(0.0);
         seen = static_cast<std::uint16_t>(seen | bit);
-    } else {
-        block += H_ip;
+    }
+    for (int k = 0; k < kPointBlock; ++k) {
+        for (int c = 0; c < kFrameBlock; ++c) {
+            block[static_cast<std::size_t>(kFrameBlock * k + c)] += H_ip(c, k);
+        }
+    }
+}
+
+bool NormalEquations::invert_point(int p, double lambda) {
+    const auto ip = static_cast<std::size_t>(p);
+    for (const double damping : {lambda, kPointDamping}) {
+        Mat3 C = C_[ip];
+        for (int k = 0; k < kPointBlock; ++k) {
+            C(k, k) += damping * C(k, k);
+        }
+        if (inverse_symmetric3(C, C_inv_[ip])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// S -= E C^-1 E^T, s -= E C^-1 w of one point. Below the diagonal blocks' diagonals S is written but never read.
+void NormalEquations::reduce_point(int p) {
+    const auto ip = static_cast<std::size_t>(p);
+    const Mat3& C_inv = C_inv_[ip];
+    const Vec3& w = w_[ip];
+    for (int i = 0; i < frames_; ++i) {
+        if (!sees(p, i)) {
+            continue;
+        }
+        const PoseBlock& a = Et(p, i);
+        std::array<double, kFrameBlock> y0{};  // columns of E C^-1
+        std::array<double, kFrameBlock> y1{};
+        std::array<double, kFrameBlock> y2{};
+        for (std::size_t r = 0; r < kFrameBlock; ++r) {
+            const double e0 = a[r];
+            const double e1 = a[kFrameBlock + r];
+            const double e2 = a[2 * kFrameBlock + r];
+            y0[r] = e0 * C_inv(0, 0) + e1 * C_inv(1, 0) + e2 * C_inv(2, 0);
+            y1[r] = e0 * C_inv(0, 1) + e1 * C_inv(1, 1) + e2 * C_inv(2, 1);
+            y2[r] = e0 * C_inv(0, 2) + e1 * C_inv(1, 2) + e2 * C_inv(2, 2);
+            s_[static_cast<std::size_t>(kFrameBlock * i) + r] -= y0[r] * w(0) + y1[r] * w(1) + y2[r] * w(2);
+        }
+        for (int j = i; j < frames_; ++j) {
+            if (!sees(p, j)) {
+                continue;
+            }
+            const PoseBlock& b = Et(p, j);
+            for (int r = 0; r < kFrameBlock; ++r) {
+                const auto q = static_cast<std::size_t>(r);
+                double* const row = &S(kFrameBlock * i + r, kFrameBlock * j);
+                for (std::size_t c = 0; c < kFrameBlock; ++c) {
+                    row[c] -= y0[q] * b[c] + y1[q] * b[kFrameBlock + c] + y2[q] * b[2 * kFrameBlock + c];
+                }
+            }
+        }
     }
 }
 
@@ -97,36 +161,9 @@ void NormalEquations::reduce(double lambda) {
     }
     for (int p = 0; p < points_; ++p) {
         const auto ip = static_cast<std::size_t>(p);
-        Mat3 C = C_[ip];
-        for (int k = 0; k < 3; ++k) {
-            C(k, k) += lambda * C(k, k);
-        }
-        usable_[ip] = inverse_symmetric3(C, C_inv_[ip]);
-        if (!usable_[ip]) {
-            continue;
-        }
-        for (int i = 0; i < frames_; ++i) {
-            if (!sees(p, i)) {
-                continue;
-            }
-            const Mat6x3 EC = E(p, i) * C_inv_[ip];
-            const Vec6 g = EC * w_[ip];
-            for (int r = 0; r < kFrameBlock; ++r) {
-                s_[static_cast<std::size_t>(kFrameBlock * i + r)] -= g(r);
-            }
-            for (int j = i; j < frames_; ++j) {
-                if (!sees(p, j)) {
-                    continue;
-                }
-                const Mat6 block = EC * E(p, j).transpose();
-                for (int r = 0; r < kFrameBlock; ++r) {
-                    for (int c = 0; c < kFrameBlock; ++c) {
-                        if (j > i || c >= r) {
-                            S(kFrameBlock * i + r, kFrameBlock * j + c) -= block(r, c);
-                        }
-                    }
-                }
-            }
+        usable_[ip] = invert_point(p, lambda);
+        if (usable_[ip]) {
+            reduce_point(p);
         }
     }
 }
@@ -136,19 +173,21 @@ bool NormalEquations::factor() {
     for (int k = 0; k < size_; ++k) {
         const double scale = std::fabs(B(k, k)) > 0.0 ? std::fabs(B(k, k)) : 1.0;
         const double pivot = S(k, k);
-        if (!(pivot > kMinPivotRatio * scale)) {
+        if (!(pivot > kMinPivotRatio * scale) || !std::isfinite(pivot)) {
             return false;
         }
         const double root = std::sqrt(pivot);
         const double inverse = 1.0 / root;
-        S(k, k) = root;
+        double* const row = &S(k, 0);
+        row[k] = root;
         for (int c = k + 1; c < size_; ++c) {
-            S(k, c) *= inverse;
+            row[c] *= inverse;
         }
         for (int r = k + 1; r < size_; ++r) {
-            const double f = S(k, r);
+            const double f = row[r];
+            double* const below = &S(r, 0);
             for (int c = r; c < size_; ++c) {
-                S(r, c) -= f * S(k, c);
+                below[c] -= f * row[c];
             }
         }
     }
@@ -174,14 +213,22 @@ void NormalEquations::substitute(std::array<double, kReducedSize>& x) {
 }
 
 Status NormalEquations::solve(double lambda, SolverStep& step) {
+    factored_ = false;
     reduce(lambda);
     if (!factor()) {
         return Status::kNotObservable;
     }
+    bool finite = true;
     for (int r = 0; r < size_; ++r) {
         x_[static_cast<std::size_t>(r)] = -s_[static_cast<std::size_t>(r)];
     }
     substitute(x_);
+    for (int r = 0; r < size_; ++r) {
+        finite = finite && std::isfinite(x_[static_cast<std::size_t>(r)]);
+    }
+    if (!finite) {
+        return Status::kNotObservable;
+    }
     for (int i = 0; i < frames_; ++i) {
         for (int r = 0; r < kFrameBlock; ++r) {
             step.frame[static_cast<std::size_t>(i)](r) = x_[static_cast<std::size_t>(kFrameBlock * i + r)];
@@ -192,33 +239,57 @@ Status NormalEquations::solve(double lambda, SolverStep& step) {
         step.shared(r) = x_[static_cast<std::size_t>(kFrameBlock * frames_ + r)];
     }
     for (int p = 0; p < points_; ++p) {
-        const auto ip = static_cast<std::size_t>(p);
-        step.point[ip].setZero();
-        if (!usable_[ip]) {
-            continue;
-        }
-        Vec3 rhs = w_[ip];
-        for (int i = 0; i < frames_; ++i) {
-            if (sees(p, i)) {
-                rhs += E(p, i).transpose() * step.frame[static_cast<std::size_t>(i)];
-            }
-        }
-        step.point[ip] = -(C_inv_[ip] * rhs);
+        substitute_point(p, step);
     }
     return Status::kOk;
 }
 
+// z = -C^-1 (w + E^T y)
+void NormalEquations::substitute_point(int p, SolverStep& step) const {
+    const auto ip = static_cast<std::size_t>(p);
+    step.point[ip].setZero();
+    if (!usable_[ip]) {
+        return;
+    }
+    Vec3 rhs = w_[ip];
+    for (int i = 0; i < frames_; ++i) {
+        if (!sees(p, i)) {
+            continue;
+        }
+        const PoseBlock& a = Et(p, i);
+        const Vec6& y = step.frame[static_cast<std::size_t>(i)];
+        for (int k = 0; k < kPointBlock; ++k) {
+            for (int c = 0; c < kFrameBlock; ++c) {
+                rhs(k) += a[static_cast<std::size_t>(kFrameBlock * k + c)] * y(c);
+            }
+        }
+    }
+    step.point[ip] = -(C_inv_[ip] * rhs);
+}
+
+bool NormalEquations::factor_undamped() {
+    if (!factored_) {
+        reduce(0.0);
+        factored_ = factor();
+    }
+    return factored_;
+}
+
+// Column at + c of the inverse -> x_.
+void NormalEquations::covariance_column(int at, int c) {
+    for (int r = 0; r < size_; ++r) {
+        x_[static_cast<std::size_t>(r)] = 0.0;
+    }
+    x_[static_cast<std::size_t>(at + c)] = 1.0;
+    substitute(x_);
+}
+
 Status NormalEquations::covariance(int i, Mat6& out) {
-    reduce(0.0);
-    if (!factor()) {
+    if (!factor_undamped()) {
         return Status::kNotObservable;
     }
     for (int c = 0; c < kFrameBlock; ++c) {
-        for (int r = 0; r < size_; ++r) {
-            x_[static_cast<std::size_t>(r)] = 0.0;
-        }
-        x_[static_cast<std::size_t>(kFrameBlock * i + c)] = 1.0;
-        substitute(x_);
+        covariance_column(kFrameBlock * i, c);
         for (int r = 0; r < kFrameBlock; ++r) {
             out(r, c) = x_[static_cast<std::size_t>(kFrameBlock * i + r)];
         }
@@ -227,20 +298,12 @@ Status NormalEquations::covariance(int i, Mat6& out) {
 }
 
 Status NormalEquations::shared_covariance(Mat3& out) {
-    if (!shared_) {
-        return Status::kNotObservable;
-    }
-    reduce(0.0);
-    if (!factor()) {
+    if (!shared_ || !factor_undamped()) {
         return Status::kNotObservable;
     }
     const int at = kFrameBlock * frames_;
     for (int c = 0; c < kSharedBlock; ++c) {
-        for (int r = 0; r < size_; ++r) {
-            x_[static_cast<std::size_t>(r)] = 0.0;
-        }
-        x_[static_cast<std::size_t>(at + c)] = 1.0;
-        substitute(x_);
+        covariance_column(at, c);
         for (int r = 0; r < kSharedBlock; ++r) {
             out(r, c) = x_[static_cast<std::size_t>(at + r)];
         }

@@ -17,6 +17,7 @@ namespace semtrack {
 
 inline constexpr int kFrameBlock = 6;
 inline constexpr int kSharedBlock = 3;
+inline constexpr int kPointBlock = 3;
 inline constexpr int kSolverFrames = kObjectWindow > kEgoWindow + 1 ? kObjectWindow : kEgoWindow + 1;
 inline constexpr int kSolverPoints = kMaxBackgroundFeatures;
 inline constexpr int kReducedSize = kFrameBlock * kSolverFrames + kSharedBlock;
@@ -42,7 +43,8 @@ public:
     void add_frame_point(int i, int p, const Mat6x3& H_ip);  ///< at most once per (i, p) is cheapest; adds up
 
     /// One damped step: (H + lambda diag(H)) step = -g. kNotObservable: the reduced matrix is not positive definite
-    /// (raise lambda); step is then untouched. Points without measurements, or whose C is singular, get a zero step.
+    /// (raise lambda), or an entry is not finite; step is then untouched. A point whose C is singular is damped on its
+    /// own, so that it does not pass for a known one; a point without measurements gets a zero step.
     /// Cost O(points frames^2 + (6 frames)^3), no allocation.
     Status solve(double lambda, SolverStep& step);
 
@@ -52,12 +54,23 @@ public:
     Status shared_covariance(Mat3& out);
 
 private:
+    /// Three rows (one per coordinate of the point) of six columns: transposed, so that the inner loops run along it.
+    using PoseBlock = std::array<double, static_cast<std::size_t>(kPointBlock) * kFrameBlock>;
+
     void reduce(double lambda);
+    void reduce_point(int p);
+    [[nodiscard]] bool invert_point(int p, double lambda);
     [[nodiscard]] bool factor();
+    [[nodiscard]] bool factor_undamped();
+    void covariance_column(int at, int c);
+    void substitute_point(int p, SolverStep& step) const;
     void substitute(std::array<double, kReducedSize>& x);
     [[nodiscard]] double& B(int r, int c) { return B_[static_cast<std::size_t>(r * kReducedSize + c)]; }
     [[nodiscard]] double& S(int r, int c) { return S_[static_cast<std::size_t>(r * kReducedSize + c)]; }
-    [[nodiscard]] Mat6x3& E(int p, int i) { return E_[static_cast<std::size_t>(p * kSolverFrames + i)]; }
+    [[nodiscard]] PoseBlock& Et(int p, int i) { return Et_[static_cast<std::size_t>(p * kSolverFrames + i)]; }
+    [[nodiscard]] const PoseBlock& Et(int p, int i) const {
+        return Et_[static_cast<std::size_t>(p * kSolverFrames + i)];
+    }
     [[nodiscard]] bool sees(int p, int i) const {
         return ((static_cast<unsigned>(seen_[static_cast<std::size_t>(p)]) >> static_cast<unsigned>(i)) & 1U) != 0U;
     }
@@ -76,7 +89,8 @@ private:
     std::array<Vec3, kSolverPoints> w_{};
     std::array<bool, kSolverPoints> usable_{};
     std::array<std::uint16_t, kSolverPoints> seen_{};  // bit i: frame i saw the point
-    std::array<Mat6x3, static_cast<std::size_t>(kSolverPoints) * kSolverFrames> E_{};
+    std::array<PoseBlock, static_cast<std::size_t>(kSolverPoints) * kSolverFrames> Et_{};  // E^T
+    bool factored_{false};  // S holds the factor of the undamped system
 };
 
 }  // namespace semtrack

@@ -1,0 +1,339 @@
+// The block-wise solution is compared with a dense Cholesky of the whole system in long double.
+#include "estimate/solver/normal_equations.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+#include "math/rng.hpp"
+#include "support/dense_system.hpp"
+
+namespace semtrack {
+namespace {
+
+using test::DenseSystem;
+
+double symmetric(Rng& rng) {
+    return 2.0 * rng.uniform() - 1.0;
+}
+
+struct Shape {
+    int frames{0};
+    int points{0};
+    bool shared{false};
+    double seen{0.6};  ///< share of (frame, point) pairs that are measured
+};
+
+/// The same random least-squares problem, block by block and dense. Dense order: frames, shared, points.
+class RandomProblem {
+public:
+    RandomProblem(const Shape& shape, std::uint32_t seed)
+        : shape_(shape),
+          rng_(seed),
+          system_(std::make_unique<NormalEquations>()),
+          dense_(6 * shape.frames + (shape.shared ? 3 : 0) + 3 * shape.points) {
+        system_->clear(shape.frames, shape.points, shape.shared);
+        for (int i = 0; i < shape.frames; ++i) {
+            add_prior(i);
+        }
+        for (int i = 0; i + 1 < shape.frames; ++i) {
+            add_pair(i, i + 1);
+        }
+        for (int p = 0; p < shape.points; ++p) {
+            for (int i = 0; i < shape.frames; ++i) {
+                if (shape.seen > 0.0 && rng_.uniform() < shape.seen) {
+                    add_observation(i, p);
+                }
+            }
+        }
+    }
+
+    NormalEquations& system() { return *system_; }
+    DenseSystem& dense() { return dense_; }
+    [[nodiscard]] int at_shared() const { return 6 * shape_.frames; }
+    [[nodiscard]] int at_point(int p) const { return at_shared() + (shape_.shared ? 3 : 0) + 3 * p; }
+
+    /// Three rows on frame i and point p.
+    void add_observation(int i, int p) {
+        Mat3x6 Jf = random<3, 6>();
+        Mat3 Jp = random<3, 3>();
+        const Vec3 r = random<3, 1>();
+        system_->add_frame(i, Jf.transpose() * Jf, Jf.transpose() * r);
+        system_->add_point(p, Jp.transpose() * Jp, Jp.transpose() * r);
+        system_->add_frame_point(i, p, Jf.transpose() * Jp);
+        put(6 * i, 6 * i, Mat6(Jf.transpose() * Jf));
+        put(at_point(p), at_point(p), Mat3(Jp.transpose() * Jp));
+        put_both(6 * i, at_point(p), Mat6x3(Jf.transpose() * Jp));
+        put_gradient(6 * i, Vec6(Jf.transpose() * r));
+        put_gradient(at_point(p), Vec3(Jp.transpose() * r));
+    }
+    void put_point_only(int p, const Mat3& H, const Vec3& g) {
+        system_->add_point(p, H, g);
+        put(at_point(p), at_point(p), H);
+        put_gradient(at_point(p), g);
+    }
+
+private:
+    template <int R, int C>
+    Eigen::Matrix<double, R, C> random() {
+        Eigen::Matrix<double, R, C> m;
+        for (int r = 0; r < R; ++r) {
+            for (int c = 0; c < C; ++c) {
+                m(r, c) = symmetric(rng_);
+            }
+        }
+        return m;
+    }
+    template <class M>
+    void put(int r0, int c0, const M& m) {
+        for (int r = 0; r < m.rows(); ++r) {
+            for (int c = 0; c < m.cols(); ++c) {
+                dense_.A(r0 + r, c0 + c) += static_cast<long double>(m(r, c));
+            }
+        }
+    }
+    template <class M>
+    void put_both(int r0, int c0, const M& m) {
+        put(r0, c0, m);
+        put(c0, r0, m.transpose());
+    }
+    template <class V>
+    void put_gradient(int at, const V& g) {
+        for (int r = 0; r < g.size(); ++r) {
+            dense_.b(at + r) += static_cast<long double>(g(r));
+        }
+    }
+    void add_prior(int i) {
+        const Mat6 J = random<6, 6>();
+        const Vec6 r = random<6, 1>();
+        system_->add_frame(i, J.transpose() * J, J.transpose() * r);
+        put(6 * i, 6 * i, Mat6(J.transpose() * J));
+        put_gradient(6 * i, Vec6(J.transpose() * r));
+        if (!shape_.shared) {
+            return;
+        }
+        const Mat3x6 Jf = random<3, 6>();
+        const Mat3 Js = random<3, 3>();
+        const Vec3 q = random<3, 1>();
+        system_->add_frame(i, Jf.transpose() * Jf, Jf.transpose() * q);
+        system_->add_shared(Js.transpose() * Js, Js.transpose() * q);
+        system_->add_frame_shared(i, Jf.transpose() * Js);
+        put(6 * i, 6 * i, Mat6(Jf.transpose() * Jf));
+        put(at_shared(), at_shared(), Mat3(Js.transpose() * Js));
+        put_both(6 * i, at_shared(), Mat6x3(Jf.transpose() * Js));
+        put_gradient(6 * i, Vec6(Jf.transpose() * q));
+        put_gradient(at_shared(), Vec3(Js.transpose() * q));
+    }
+    void add_pair(int i, int j) {
+        const Mat6 Ji = random<6, 6>();
+        const Mat6 Jj = random<6, 6>();
+        const Vec6 r = random<6, 1>();
+        system_->add_frame(i, Ji.transpose() * Ji, Ji.transpose() * r);
+        system_->add_frame(j, Jj.transpose() * Jj, Jj.transpose() * r);
+        system_->add_frame_pair(i, j, Ji.transpose() * Jj);
+        put(6 * i, 6 * i, Mat6(Ji.transpose() * Ji));
+        put(6 * j, 6 * j, Mat6(Jj.transpose() * Jj));
+        put_both(6 * i, 6 * j, Mat6(Ji.transpose() * Jj));
+        put_gradient(6 * i, Vec6(Ji.transpose() * r));
+        put_gradient(6 * j, Vec6(Jj.transpose() * r));
+    }
+
+    Shape shape_;
+    Rng rng_;
+    std::unique_ptr<NormalEquations> system_;
+    DenseSystem dense_;
+};
+
+/// Largest difference of the step from the dense solution, relative to the largest entry.
+double relative_difference(const SolverStep& step, const Shape& shape, const std::vector<long double>& x,
+                           const RandomProblem& problem) {
+    long double worst = 0.0L;
+    long double largest = 0.0L;
+    const auto compare = [&](double mine, int at) {
+        const long double theirs = x[static_cast<std::size_t>(at)];
+        worst = std::max(worst, std::fabs(static_cast<long double>(mine) - theirs));
+        largest = std::max(largest, std::fabs(theirs));
+    };
+    for (int i = 0; i < shape.frames; ++i) {
+        for (int r = 0; r < 6; ++r) {
+            compare(step.frame[static_cast<std::size_t>(i)](r), 6 * i + r);
+        }
+    }
+    for (int r = 0; shape.shared && r < 3; ++r) {
+        compare(step.shared(r), problem.at_shared() + r);
+    }
+    for (int p = 0; p < shape.points; ++p) {
+        for (int r = 0; r < 3; ++r) {
+            compare(step.point[static_cast<std::size_t>(p)](r), problem.at_point(p) + r);
+        }
+    }
+    return static_cast<double>(worst / largest);
+}
+
+TEST(NormalEquations, EliminationOfPointsGivesTheSolutionOfTheWholeSystem) {
+    int checked = 0;
+    for (const Shape& shape : {Shape{1, 0, false}, Shape{1, 1, false, 1.0}, Shape{2, 5, false}, Shape{5, 20, true},
+                               Shape{kSolverFrames, 40, false}, Shape{kSolverFrames, 40, true}, Shape{3, 60, true, 0.9},
+                               Shape{kSolverFrames, 30, true, 1.0}}) {
+        for (const double lambda : {0.0, 1e-4, 1.0}) {
+            for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+                // Every point is seen often enough to be known: a single observation gives it three rows.
+                RandomProblem problem(shape, seed);
+                for (int p = 0; p < shape.points; ++p) {
+                    problem.add_observation(p % shape.frames, p);
+                }
+                auto step = std::make_unique<SolverStep>();
+                ASSERT_EQ(problem.system().solve(lambda, *step), Status::kOk);
+                const std::vector<long double> x = problem.dense().solve(static_cast<long double>(lambda));
+                ASSERT_FALSE(x.empty());
+                EXPECT_LT(relative_difference(*step, shape, x, problem), 1e-10) << shape.frames << " " << shape.points;
+                ++checked;
+            }
+        }
+    }
+    EXPECT_EQ(checked, 8 * 3 * 4);
+}
+
+TEST(NormalEquations, FullCapacityIsSolvedAsWell) {
+    const Shape shape{kSolverFrames, kSolverPoints, true, 0.3};
+    RandomProblem problem(shape, 7);
+    for (int p = 0; p < shape.points; ++p) {
+        problem.add_observation(p % shape.frames, p);
+    }
+    auto step = std::make_unique<SolverStep>();
+    ASSERT_EQ(problem.system().solve(1e-4, *step), Status::kOk);
+    EXPECT_LT(relative_difference(*step, shape, problem.dense().solve(1e-4L), problem), 1e-10);
+}
+
+TEST(NormalEquations, APointThatNobodySawKeepsItsPlaceAndChangesNothing) {
+    const Shape with{3, 4, false, 0.0};
+    const Shape without{3, 3, false, 0.0};
+    RandomProblem a(with, 3);
+    RandomProblem b(without, 3);
+    for (int k = 0; k < 9; ++k) {
+        a.add_observation(k % 3, k / 3);
+        b.add_observation(k % 3, k / 3);
+    }
+    auto step_a = std::make_unique<SolverStep>();
+    auto step_b = std::make_unique<SolverStep>();
+    step_a->point[3] = Vec3(9.0, 9.0, 9.0);
+    ASSERT_EQ(a.system().solve(1e-3, *step_a), Status::kOk);
+    ASSERT_EQ(b.system().solve(1e-3, *step_b), Status::kOk);
+    EXPECT_EQ(step_a->point[3], Vec3(Vec3::Zero()));
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(step_a->frame[i], step_b->frame[i]);
+        EXPECT_EQ(step_a->point[i], step_b->point[i]);
+    }
+}
+
+TEST(NormalEquations, APointSeenOnceByOneCameraDoesNotHoldItsFrame) {
+    // Two rows (u, v) for six unknowns of a frame that has a weak prior, and three of a point: the point absorbs them.
+    const std::unique_ptr<NormalEquations> owner = std::make_unique<NormalEquations>();
+    NormalEquations& system = *owner;
+    system.clear(1, 1, false);
+    const Mat6 prior = 4.0 * Mat6::Identity();
+    system.add_frame(0, prior, Vec6::Zero());
+    Mat3x6 Jf = Mat3x6::Zero();
+    Jf(0, 0) = 500.0;
+    Jf(1, 1) = 500.0;
+    Mat3 Jp = Mat3::Zero();
+    Jp(0, 0) = 500.0;
+    Jp(0, 2) = 20.0;
+    Jp(1, 1) = 500.0;
+    Jp(1, 2) = -30.0;
+    system.add_frame(0, Jf.transpose() * Jf, Vec6::Zero());
+    system.add_point(0, Jp.transpose() * Jp, Vec3::Zero());
+    system.add_frame_point(0, 0, Jf.transpose() * Jp);
+    Mat6 covariance;
+    ASSERT_EQ(system.covariance(0, covariance), Status::kOk);
+    for (int r = 0; r < 6; ++r) {
+        EXPECT_NEAR(covariance(r, r), 0.25, 0.01) << r;
+    }
+}
+
+TEST(NormalEquations, CovarianceIsTheBlockOfTheDenseInverse) {
+    for (const bool shared : {false, true}) {
+        const Shape shape{4, 25, shared, 0.8};
+        RandomProblem problem(shape, 11);
+        for (int p = 0; p < shape.points; ++p) {
+            problem.add_observation(p % shape.frames, p);
+        }
+        for (int i = 0; i < shape.frames; ++i) {
+            Mat6 covariance;
+            ASSERT_EQ(problem.system().covariance(i, covariance), Status::kOk);
+            for (int c = 0; c < 6; ++c) {
+                const std::vector<long double> x = problem.dense().inverse_column(6 * i + c);
+                for (int r = 0; r < 6; ++r) {
+                    EXPECT_NEAR(covariance(r, c), static_cast<double>(x[static_cast<std::size_t>(6 * i + r)]), 1e-10);
+                }
+            }
+        }
+        Mat3 size_covariance;
+        ASSERT_EQ(problem.system().shared_covariance(size_covariance), shared ? Status::kOk : Status::kNotObservable);
+        for (int c = 0; shared && c < 3; ++c) {
+            const std::vector<long double> x = problem.dense().inverse_column(problem.at_shared() + c);
+            for (int r = 0; r < 3; ++r) {
+                EXPECT_NEAR(size_covariance(r, c),
+                            static_cast<double>(x[static_cast<std::size_t>(problem.at_shared() + r)]), 1e-10);
+            }
+        }
+    }
+}
+
+TEST(NormalEquations, CovarianceAfterADampedSolveIsTheUndampedOne) {
+    const Shape shape{3, 10, false, 1.0};
+    RandomProblem a(shape, 5);
+    RandomProblem b(shape, 5);
+    auto step = std::make_unique<SolverStep>();
+    Mat6 first;
+    Mat6 again;
+    ASSERT_EQ(a.system().covariance(1, first), Status::kOk);
+    ASSERT_EQ(b.system().covariance(0, again), Status::kOk);
+    ASSERT_EQ(b.system().solve(10.0, *step), Status::kOk);
+    ASSERT_EQ(b.system().covariance(1, again), Status::kOk);
+    EXPECT_EQ(first, again);
+}
+
+TEST(NormalEquations, AMatrixThatIsNotPositiveDefiniteIsNotObservableAndLeavesTheStep) {
+    const std::unique_ptr<NormalEquations> owner = std::make_unique<NormalEquations>();
+    NormalEquations& system = *owner;
+    auto step = std::make_unique<SolverStep>();
+    step->frame[0] = Vec6::Constant(3.0);
+    system.clear(1, 0, false);
+    Mat6 H = Mat6::Identity();
+    H(0, 1) = H(1, 0) = 2.0;
+    system.add_frame(0, H, Vec6::Ones());
+    EXPECT_EQ(system.solve(0.0, *step), Status::kNotObservable);
+    EXPECT_EQ(step->frame[0], Vec6(Vec6::Constant(3.0)));
+    Mat6 covariance;
+    EXPECT_EQ(system.covariance(0, covariance), Status::kNotObservable);
+    EXPECT_EQ(system.solve(2.0, *step), Status::kOk) << "enough damping makes it positive definite";
+}
+
+TEST(NormalEquations, AnEmptySystemOfFramesIsNotObservable) {
+    const auto system = std::make_unique<NormalEquations>();
+    auto step = std::make_unique<SolverStep>();
+    system->clear(2, 3, true);
+    EXPECT_EQ(system->solve(1e-4, *step), Status::kNotObservable);
+}
+
+TEST(NormalEquations, NumbersThatAreNotFiniteAreNotObservableAndLeaveTheStep) {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    for (const double bad : {kNan, kInfinite}) {
+        const auto system = std::make_unique<NormalEquations>();
+        auto step = std::make_unique<SolverStep>();
+        system->clear(1, 0, false);
+        system->add_frame(0, Mat6::Identity(), Vec6::Constant(bad));
+        EXPECT_EQ(system->solve(0.0, *step), Status::kNotObservable);
+        EXPECT_EQ(step->frame[0], Vec6(Vec6::Zero()));
+        system->clear(1, 0, false);
+        system->add_frame(0, bad * Mat6::Identity(), Vec6::Ones());
+        EXPECT_EQ(system->solve(0.0, *step), Status::kNotObservable);
+    }
+}
+
+}  // namespace
+}  // namespace semtrack

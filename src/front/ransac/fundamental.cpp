@@ -13,7 +13,9 @@ using Row = std::array<double, kUnknowns>;
 using Equations = std::array<Row, kEquations>;
 using Symmetric = std::array<Row, kUnknowns>;
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+constexpr std::size_t at(int i) {
+    return static_cast<std::size_t>(i);
+}
 
 Row equation(const ImagePairs& pairs, int i) {
     const auto px = static_cast<double>(pairs.px[at(i)]);

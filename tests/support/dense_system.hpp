@@ -26,6 +26,18 @@ public:
         }
         return substitute(x);
     }
+    /// Largest entry of (A + lambda diag A) x + b: for systems that are too large to be solved again here.
+    [[nodiscard]] long double residual(long double lambda, const std::vector<long double>& x) {
+        long double worst = 0.0L;
+        for (int r = 0; r < n_; ++r) {
+            long double sum = b(r) + lambda * A(r, r) * x[static_cast<std::size_t>(r)];
+            for (int c = 0; c < n_; ++c) {
+                sum += A(r, c) * x[static_cast<std::size_t>(c)];
+            }
+            worst = std::fabs(sum) > worst ? std::fabs(sum) : worst;
+        }
+        return worst;
+    }
     /// Column c of A^-1; empty: not positive definite.
     [[nodiscard]] std::vector<long double> inverse_column(int c) {
         if (!factor(0.0L)) {

@@ -1,0 +1,231 @@
+#include "sil/evaluation.hpp"
+
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "sil/kitti/detection_file.hpp"
+#include "sil/kitti/drive_files.hpp"
+#include "sil/kitti/label_detections.hpp"
+#include "sil/open_drive.hpp"
+#include "sil/report/summary.hpp"
+#include "sil/report/text_output.hpp"
+
+namespace semtrack::sil {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kDontCare = "DontCare";
+
+ObjectRow row_of_label(const Label& label) {
+    ObjectRow row;
+    row.frame = label.frame;
+    row.id = label.id;
+    row.type = label.type;
+    row.truncated = label.truncated;
+    row.occluded = label.occluded;
+    row.box = label.box;
+    row.size_m = Vec3(label.length, label.width, label.height);
+    row.bottom_c0 = Vec3(label.x, label.y, label.z);
+    row.rotation_y = label.rotation_y;
+    return row;
+}
+
+std::vector<ObjectRow> label_rows(const Sequence& sequence) {
+    DriveCameras cameras = sequence.cameras();
+    cameras.calibration.detection = cameras.calibration.left;
+    cameras.calibration.t_d_c = {0.0, 0.0, 0.0};
+    std::vector<ObjectRow> rows;
+    for (const Label& label : sequence.labels()) {
+        ObjectRow row = row_of_label(label);
+        if (label.type != kDontCare) {
+            const auto moved = detections_from_labels({label}, {label.frame}, cameras);
+            const std::vector<Detection>& here = moved.at(label.frame);
+            if (here.empty()) {
+                continue;  // a type that no detection has, or no overlap with the processed image
+            }
+            row.type = class_name(here.front().object_class);
+            row.box = here.front().box;
+        }
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+Trajectory processed_camera(const std::map<int, RigidTransform>& camera0, const std::array<double, 3>& t_c0_c) {
+    const Pose T_c0_c{Mat3::Identity(), Vec3(t_c0_c[0], t_c0_c[1], t_c0_c[2])};
+    Trajectory out;
+    for (const auto& [frame, T] : camera0) {
+        out[frame] = to_pose(T) * T_c0_c;
+    }
+    return out;
+}
+
+std::vector<ObjectRow> read_object_rows(const fs::path& path) {
+    const TextFile file(path, false);
+    std::vector<ObjectRow> rows;
+    std::set<std::pair<int, int>> seen;
+    for (const TextRow& text : file.rows()) {
+        file.require_words(text, 18, 19);  // 18: without speed, as KITTI's own results
+        ObjectRow row;
+        row.frame = file.integer(text, 0);
+        row.id = file.integer(text, 1);
+        row.type = std::string(text.words[2]);
+        row.truncated = file.number(text, 3);
+        row.occluded = file.integer(text, 4);
+        row.box = {file.number(text, 6), file.number(text, 7), file.number(text, 8), file.number(text, 9)};
+        row.size_m = Vec3(file.number(text, 12), file.number(text, 11), file.number(text, 10));
+        row.bottom_c0 = Vec3(file.number(text, 13), file.number(text, 14), file.number(text, 15));
+        row.rotation_y = file.number(text, 16);
+        row.score = file.number(text, 17);
+        row.speed = text.words.size() > 18 ? file.number(text, 18) : 0.0;
+        if (!(row.size_m(0) > 0.0 && row.size_m(1) > 0.0 && row.size_m(2) > 0.0)) {
+            file.refuse(text, "a box needs positive sizes");
+        }
+        if (!seen.insert({row.frame, row.id}).second) {
+            file.refuse(text, "the same frame and id twice");
+        }
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+Trajectory read_trajectory(const fs::path& dir, const std::vector<int>& frames) {
+    const fs::path path = dir / "ego.txt";
+    if (frames.empty()) {
+        throw InputError((dir / "frames.txt").string() + ": holds no frames");
+    }
+    const std::map<int, RigidTransform> poses = read_poses(path, frames);
+    if (poses.size() != frames.size()) {
+        throw InputError(path.string() + ": has " + std::to_string(poses.size()) + " poses, frames.txt has " +
+                         std::to_string(frames.size()));
+    }
+    Trajectory out;
+    for (const auto& [frame, T] : poses) {
+        out[frame] = to_pose(T);
+    }
+    return out;
+}
+
+ResultCounts count(const Trajectory& ego, const std::vector<ObjectRow>& objects) {
+    ResultCounts c;
+    c.frames = static_cast<int>(ego.size());
+    c.first_frame = ego.begin()->first;
+    c.last_frame = ego.rbegin()->first;
+    std::vector<Vec3> path;
+    for (const auto& [frame, T] : ego) {
+        path.push_back(T.t);
+    }
+    c.path_length_m = path_length(path);
+    std::set<int> ids;
+    for (const ObjectRow& o : objects) {
+        ids.insert(o.id);
+    }
+    c.objects = static_cast<int>(ids.size());
+    c.object_rows = static_cast<int>(objects.size());
+    return c;
+}
+
+/// Of an older metrics.json, if there is one that can be read.
+RunCounts old_run_counts(const fs::path& path) {
+    RunCounts out;
+    std::ifstream in(path);
+    const auto json = nlohmann::ordered_json::parse(in, nullptr, false);
+    if (json.is_object() && json.contains("run") && json["run"].is_object()) {
+        for (const auto& [name, value] : json["run"].items()) {
+            if (value.is_number_integer()) {
+                out.emplace_back(name, value.get<std::int64_t>());
+            }
+        }
+    }
+    return out;
+}
+
+DriveTruth read_odometry_truth(const DriveOptions& options) {
+    const fs::path poses = options.root / "poses" / (options.sequence + ".txt");
+    if (!fs::exists(poses)) {
+        return truth_of(*open_drive(options));
+    }
+    DriveTruth truth;
+    truth.ego = processed_camera(read_poses(poses, {}), {0.0, 0.0, 0.0});
+    return truth;
+}
+
+}  // namespace
+
+DriveTruth truth_of(const Sequence& sequence) {
+    DriveTruth truth;
+    truth.ego = processed_camera(sequence.ego_truth(), sequence.cameras().t_c0_c);
+    truth.objects.labels = label_rows(sequence);
+    truth.objects.frames = sequence.labelled_frames();
+    for (const auto& [frame, T] : sequence.ego_truth()) {
+        truth.objects.T_f_c0[frame] = to_pose(T);
+    }
+    for (const int frame : truth.objects.frames) {
+        if (frame < sequence.first_frame() || frame > sequence.last_frame()) {
+            continue;
+        }
+        truth.objects.time_us[frame] = sequence.time_us(frame);
+    }
+    return truth;
+}
+
+DriveTruth read_truth(const DriveOptions& options) {
+    if (options.layout == "odometry") {
+        return read_odometry_truth(options);
+    }
+    try {
+        return truth_of(*open_drive(options));
+    } catch (const InputError&) {
+        DriveOptions without_images = options;
+        without_images.images = false;
+        try {
+            return truth_of(*open_drive(without_images));
+        } catch (const InputError&) {
+        }
+        throw;
+    }
+}
+
+Metrics evaluate_results(const fs::path& dir, const DriveTruth& truth) {
+    const std::vector<int> frames = read_frame_list(dir / "frames.txt");
+    const Trajectory ego = read_trajectory(dir, frames);
+    const bool has_objects = fs::exists(dir / "objects.txt");
+    std::vector<ObjectRow> objects;
+    if (has_objects) {
+        objects = read_object_rows(dir / "objects.txt");
+    }
+    Metrics metrics;
+    metrics.counts = count(ego, objects);
+    if (!truth.ego.empty()) {
+        metrics.ego = compare_trajectories(ego, truth.ego);
+    }
+    if (has_objects && !truth.objects.labels.empty()) {
+        metrics.objects = compare_objects(objects, frames, truth.objects);
+    }
+    return metrics;
+}
+
+void run_evaluate(const EvaluateOptions& options) {
+    if (!fs::is_directory(options.results)) {
+        throw InputError(options.results.string() + ": no such folder");
+    }
+    const fs::path path = options.results / "metrics.json";
+    Metrics metrics = evaluate_results(options.results, read_truth(options.drive));
+    metrics.run = old_run_counts(path);
+    const fs::path unfinished = options.results / "metrics.json.unfinished";
+    try {
+        write_file(unfinished, to_json(metrics));
+    } catch (const std::runtime_error& error) {
+        throw InputError(error.what());
+    }
+    fs::rename(unfinished, path);
+    const std::string text = to_json(metrics);
+    (void)std::fputs(text.c_str(), stdout);
+    (void)std::fputs(errors_text(metrics).c_str(), stdout);
+}
+
+}  // namespace semtrack::sil

@@ -1,0 +1,32 @@
+// A results folder against a drive's truth: used by `evaluate` and, on its own fresh files, by `replay`.
+#ifndef SEMTRACK_SIL_EVALUATION_HPP
+#define SEMTRACK_SIL_EVALUATION_HPP
+
+#include <filesystem>
+
+#include "sil/metrics/metrics_json.hpp"
+#include "sil/options.hpp"
+#include "sil/sequence.hpp"
+
+namespace semtrack::sil {
+
+struct DriveTruth {
+    Trajectory ego{};  ///< processed camera, in the frame of the file; empty: none
+    ObjectTruthSet objects{};
+};
+
+/// Labels' boxes are moved into the processed left image.
+[[nodiscard]] DriveTruth truth_of(const Sequence& sequence);
+/// For `evaluate`: an odometry sequence needs its poses only; other drives need no images.
+[[nodiscard]] DriveTruth read_truth(const DriveOptions& options);
+
+/// DIR/ego.txt and frames.txt, and objects.txt where it is. InputError by line: rows that do not fit together,
+/// doubled or falling frame numbers, an object without size, the same frame and id twice.
+[[nodiscard]] Metrics evaluate_results(const std::filesystem::path& dir, const DriveTruth& truth);
+
+/// `semtrack-sil evaluate`: writes DIR/metrics.json (the run's own counts in an older one are kept) and prints.
+void run_evaluate(const EvaluateOptions& options);
+
+}  // namespace semtrack::sil
+
+#endif

@@ -1,0 +1,195 @@
+#include "sil/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+
+#include "sil/sequence.hpp"
+
+namespace semtrack::sil {
+
+namespace {
+
+constexpr int kLeastImage_px = 64;
+constexpr double kLeastHeight_m = 0.1;
+constexpr double kMostHeight_m = 10.0;
+
+/// Words as typed; turned into ReplayOptions after parsing.
+struct Words {
+    std::string cues;
+    std::string extractor{"native"};
+    std::string matcher{"patch"};
+    std::string images{"files"};
+    std::string image_size;
+    std::string ego{"estimate"};
+    std::string features{"images"};
+    std::string can_dialect{"fd"};
+    std::string can_interface;
+    double camera_height_m{1.65};
+    bool no_progress{false};
+};
+
+void add_drive(CLI::App& app, DriveOptions& drive) {
+    app.add_option("--layout", drive.layout, "how the drive is stored")
+        ->required()
+        ->check(CLI::IsMember({"raw", "odometry", "tracking", "world"}));
+    app.add_option("--root", drive.root, "folder of the data set (world: none)");
+    app.add_option("--sequence", drive.sequence, "drive or sequence; world: scenario")->required();
+    app.add_option("--calib", drive.calib, "calibration file in place of the layout's own");
+    app.add_option("--detections-camera", drive.detections_camera, "camera of the boxes (0; tracking 2)")
+        ->check(CLI::IsMember({0, 2}));
+}
+
+void add_replay(CLI::App& app, ReplayOptions& o, Words& w) {
+    add_drive(app, o.drive);
+    app.add_option("--first", o.first, "first frame number");
+    app.add_option("--last", o.last, "last frame number");
+    app.add_option("--detections", o.detections, "FILE, labels or none");
+    app.add_option("--detection-delay", o.detection_delay, "frames that a detector's list comes late")
+        ->check(CLI::Range(0, kMaxDetectionDelay));
+    app.add_option("--cues", w.cues, "letters of S, M, F, P, G (default: all that the input allows)");
+    app.add_option("--extractor", w.extractor)->check(CLI::IsMember({"native", "opencv"}));
+    app.add_option("--matcher", w.matcher)->check(CLI::IsMember({"patch", "orb"}));
+    app.add_option("--images", w.images)->check(CLI::IsMember({"files", "none"}));
+    app.add_option("--image-size", w.image_size, "WxH, with --images none");
+    app.add_option("--ego", w.ego, "estimate, or a poses file: ego-motion is taken from it");
+    app.add_option("--mount", o.mount, "file with T_v_c, 12 values");
+    app.add_option("--camera-height", w.camera_height_m, "camera above the road, m");
+    app.add_option("--features", w.features)->check(CLI::IsMember({"images", "simulated"}));
+    app.add_option("--can-dialect", w.can_dialect)->check(CLI::IsMember({"fd", "classic"}));
+    app.add_option("--can", w.can_interface, "SocketCAN interface to send on");
+    app.add_flag("--realtime", o.realtime, "at the drive's own pace");
+    app.add_flag("--pictures", o.pictures, "write pictures");
+    app.add_flag("--points", o.points, "write points.csv");
+    app.add_flag("--no-progress", w.no_progress);
+    app.add_option("--out", o.out, "folder for the results")->required();
+}
+
+Cues parse_cues(const Words& w, bool images) {
+    Cues cues{true, true, images, images, true};
+    if (w.cues.empty()) {
+        return cues;
+    }
+    cues = Cues{false, false, false, false, false};
+    for (const char letter : w.cues) {
+        bool* const cue = letter == 'S'   ? &cues.box
+                          : letter == 'M' ? &cues.motion
+                          : letter == 'F' ? &cues.features
+                          : letter == 'P' ? &cues.alignment
+                          : letter == 'G' ? &cues.ground
+                                          : nullptr;
+        if (cue == nullptr) {
+            throw InputError("--cues: '" + w.cues + "' has other letters than S, M, F, P, G");
+        }
+        *cue = true;
+    }
+    if (!cues.box) {
+        throw InputError("--cues: S (the box) is always needed");
+    }
+    if (!images && (cues.features || cues.alignment)) {
+        throw InputError("--cues: F and P need images");
+    }
+    return cues;
+}
+
+void parse_image_size(const std::string& text, DriveOptions& drive) {
+    const char* const end = text.data() + text.size();
+    const auto [x, error_w] = std::from_chars(text.data(), end, drive.width);
+    const bool has_x = error_w == std::errc{} && x != end && *x == 'x';
+    const auto [rest, error_h] = std::from_chars(has_x ? x + 1 : end, end, drive.height);
+    if (!has_x || error_h != std::errc{} || rest != end) {
+        throw InputError("--image-size: '" + text + "' is not WIDTHxHEIGHT");
+    }
+    if (drive.width < kLeastImage_px || drive.width > kMaxImageWidth || drive.height < kLeastImage_px ||
+        drive.height > kMaxImageHeight) {
+        throw InputError("--image-size: " + text + " is not between 64x64 and " + std::to_string(kMaxImageWidth) + "x" +
+                         std::to_string(kMaxImageHeight));
+    }
+}
+
+/// What the contract knows and this program does not have.
+void refuse_what_is_not_built(const Words& w) {
+    if (w.features == "simulated") {
+        throw InputError("--features simulated: not available yet");
+    }
+    if (w.extractor == "opencv") {
+        throw InputError("--extractor opencv: not available yet");
+    }
+    if (w.matcher == "orb") {
+        throw InputError("--matcher orb: not available yet");
+    }
+    if (!w.can_interface.empty()) {
+        throw InputError("--can " + w.can_interface + ": not available yet");
+    }
+}
+
+void finish_replay(const Words& w, ReplayOptions& o) {
+    refuse_what_is_not_built(w);
+    o.drive.images = w.images == "files";
+    if (w.ego != "estimate") {
+        o.drive.ego = w.ego;
+    }
+    if (!o.drive.images && o.drive.ego.empty()) {
+        throw InputError("--images none: needs --ego FILE");
+    }
+    if (!w.image_size.empty()) {
+        if (o.drive.images) {
+            throw InputError("--image-size: only with --images none");
+        }
+        parse_image_size(w.image_size, o.drive);
+    }
+    if (!(w.camera_height_m >= kLeastHeight_m && w.camera_height_m <= kMostHeight_m)) {
+        throw InputError("--camera-height: not between 0.1 and 10 m");
+    }
+    if (o.first && o.last && *o.first > *o.last) {
+        throw InputError("--first " + std::to_string(*o.first) + " is greater than --last " + std::to_string(*o.last));
+    }
+    if (o.pictures && !o.drive.images && o.drive.layout == "world") {
+        throw InputError("--pictures: not with --images none");
+    }
+    o.config.cues = parse_cues(w, o.drive.images);
+    o.config.camera_height_m = w.camera_height_m;
+    o.dialect = w.can_dialect == "classic" ? CanDialect::kClassic : CanDialect::kFd;
+    o.progress = !w.no_progress;
+}
+
+}  // namespace
+
+CommandLine parse_command_line(int argc, const char* const* argv) {
+    CommandLine line;
+    Words words;
+    CLI::App app("semtrack software in the loop: ego-motion and 3D object tracking on recorded or rendered drives",
+                 "semtrack-sil");
+    app.require_subcommand(1);
+    CLI::App* const replay = app.add_subcommand("replay", "run a drive through the tracker");
+    add_replay(*replay, line.replay, words);
+    CLI::App* const render = app.add_subcommand("render", "write a rendered scenario in one of KITTI's layouts");
+    render->add_option("--scenario", line.render.scenario)->required();
+    render->add_option("--layout", line.render.layout)
+        ->required()
+        ->check(CLI::IsMember({"raw", "odometry", "tracking"}));
+    render->add_option("--frames", line.render.frames)->check(CLI::Range(1, 100000));
+    render->add_option("--out", line.render.out)->required();
+    CLI::App* const evaluate = app.add_subcommand("evaluate", "compare a results folder with the truth");
+    add_drive(*evaluate, line.evaluate.drive);
+    evaluate->add_option("--results", line.evaluate.results)->required();
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        const CLI::App* const asked = replay->parsed()     ? replay
+                                      : render->parsed()   ? render
+                                      : evaluate->parsed() ? evaluate
+                                                           : &app;
+        line.help = asked->help();
+        return line;
+    } catch (const CLI::ParseError& error) {
+        throw InputError(error.what());
+    }
+    line.command = replay->parsed() ? Command::kReplay : render->parsed() ? Command::kRender : Command::kEvaluate;
+    if (line.command == Command::kReplay) {
+        finish_replay(words, line.replay);
+    }
+    return line;
+}
+
+}  // namespace semtrack::sil

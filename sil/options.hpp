@@ -1,0 +1,70 @@
+// The command line as data. Parsing is in options.cpp; what the words mean is in docs/formats.md.
+#ifndef SEMTRACK_SIL_OPTIONS_HPP
+#define SEMTRACK_SIL_OPTIONS_HPP
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "semtrack/can_encoder.hpp"
+#include "semtrack/config.hpp"
+
+namespace semtrack::sil {
+
+/// Which drive, and through which cameras.
+struct DriveOptions {
+    std::string layout;
+    std::filesystem::path root;
+    std::string sequence;
+    std::filesystem::path calib;  ///< empty: the layout's own
+    int detections_camera{-1};    ///< -1: the layout's default
+    bool images{true};
+    int width{1242};  ///< without images
+    int height{375};
+    std::filesystem::path ego;  ///< poses file; empty: estimate
+};
+
+struct ReplayOptions {
+    DriveOptions drive;
+    std::optional<int> first;
+    std::optional<int> last;
+    std::string detections{"none"};  ///< none, labels or a file
+    int detection_delay{0};
+    Config config{};
+    std::filesystem::path mount;
+    CanDialect dialect{CanDialect::kFd};
+    bool realtime{false};
+    bool pictures{false};
+    bool points{false};
+    bool progress{true};
+    std::filesystem::path out;
+};
+
+struct RenderOptions {
+    std::string scenario;
+    std::string layout;
+    int frames{0};  ///< 0: the scenario's own number
+    std::filesystem::path out;
+};
+
+struct EvaluateOptions {
+    DriveOptions drive;
+    std::filesystem::path results;
+};
+
+enum class Command { kHelp, kReplay, kRender, kEvaluate };
+
+struct CommandLine {
+    Command command{Command::kHelp};
+    std::string help;  ///< kHelp
+    ReplayOptions replay;
+    RenderOptions render;
+    EvaluateOptions evaluate;
+};
+
+/// Throws InputError for bad usage, also for what this build does not have.
+[[nodiscard]] CommandLine parse_command_line(int argc, const char* const* argv);
+
+}  // namespace semtrack::sil
+
+#endif

@@ -1,0 +1,217 @@
+#include "sil/replay.hpp"
+
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include "hal/loopback/can_log.hpp"
+#include "semtrack/cycle.hpp"
+#include "sil/evaluation.hpp"
+#include "sil/kitti/detection_file.hpp"
+#include "sil/open_drive.hpp"
+#include "sil/report/picture_writer.hpp"
+#include "sil/report/progress.hpp"
+#include "sil/report/summary.hpp"
+#include "sil/report/writers.hpp"
+#include "sil/result_folder.hpp"
+#include "sil/sources.hpp"
+
+namespace semtrack::sil {
+
+namespace {
+
+volatile std::sig_atomic_t g_stop = 0;
+
+extern "C" void stop_on_signal(int) {
+    g_stop = 1;
+}
+
+struct Range {
+    int first{0};
+    int last{0};
+};
+
+Range range_of(const ReplayOptions& o, const Sequence& sequence) {
+    const Range all{sequence.first_frame(), sequence.last_frame()};
+    const Range wanted{o.first.value_or(all.first), o.last.value_or(all.last)};
+    const std::string have =
+        " (the drive has frames " + std::to_string(all.first) + " to " + std::to_string(all.last) + ")";
+    if (wanted.first < all.first || wanted.first > all.last) {
+        throw InputError("--first " + std::to_string(wanted.first) + ": no such frame" + have);
+    }
+    if (wanted.last < all.first || wanted.last > all.last) {
+        throw InputError("--last " + std::to_string(wanted.last) + ": no such frame" + have);
+    }
+    if (wanted.first > wanted.last) {
+        throw InputError("--first " + std::to_string(wanted.first) + " is greater than --last " +
+                         std::to_string(wanted.last) + have);
+    }
+    return wanted;
+}
+
+/// Everything that is read before the first frame.
+struct Drive {
+    std::unique_ptr<Sequence> sequence;
+    DriveCameras cameras;  ///< with the mount
+    Range range;
+    Detections detections;
+};
+
+Drive open(const ReplayOptions& o) {
+    Drive d;
+    d.sequence = open_drive(o.drive);
+    d.cameras = d.sequence->cameras();
+    if (!o.mount.empty()) {
+        d.cameras.calibration.T_v_c = read_mount(o.mount);
+    }
+    d.range = range_of(o, *d.sequence);
+    if (o.detections == "labels") {
+        d.detections.by_frame = d.sequence->label_detections();
+        if (d.detections.by_frame.empty()) {
+            throw InputError("--detections labels: " + o.drive.sequence + " has no labels");
+        }
+    } else if (o.detections != "none") {
+        d.detections = read_detections(o.detections, d.cameras.calibration.width, d.cameras.calibration.height);
+    }
+    return d;
+}
+
+class Run {
+public:
+    Run(const ReplayOptions& options, Drive& drive, const std::filesystem::path& dir)
+        : options_(options),
+          drive_(drive),
+          writers_(dir, drive.cameras, options.points),
+          can_log_(writers_.can_log()),
+          stereo_(*drive.sequence, {drive.range.first, drive.range.last, options.drive.images, options.realtime},
+                  timer_),
+          detections_(*drive.sequence, drive.detections.by_frame, drive.range.first, drive.range.last,
+                      options.detection_delay),
+          tracker_(std::make_unique<Tracker>()),
+          cycle_(std::make_unique<Cycle>()),
+          output_(std::make_unique<Output>()) {
+        if (!options.drive.ego.empty()) {
+            ego_.emplace(*drive.sequence, read_given_poses(options.drive), drive.cameras.calibration.T_v_c,
+                         drive.range.first, drive.range.last, options.drive.ego.string());
+        }
+        if (options.pictures) {
+            pictures_.emplace(dir, drive.cameras.calibration, *drive.sequence);
+        }
+        if (tracker_->init(options.config, drive.cameras.calibration, nullptr, &timer_) != Status::kOk) {
+            throw InputError(options.drive.sequence + ": the tracker refuses the calibration or the image size");
+        }
+        CyclePorts ports;
+        ports.stereo = &stereo_;
+        ports.detections = options.detections == "none" ? nullptr : &detections_;
+        ports.ego = ego_ ? &*ego_ : nullptr;
+        ports.can = &can_log_;
+        ports.observer = &timer_;
+        CanConfig can;
+        can.dialect = options.dialect;
+        cycle_->init(ports, can);
+    }
+
+    void all_frames() {
+        const int total = drive_.range.last - drive_.range.first + 1;
+        Progress progress(options_.progress, total);
+        while (one_frame()) {
+            progress.show(stereo_.frame() - drive_.range.first + 1, stereo_.frame());
+        }
+        if (pictures_) {
+            pictures_->finish();
+        }
+        if (can_log_.failed()) {
+            throw std::runtime_error("can.log: cannot be written");
+        }
+        writers_.close();
+    }
+
+    [[nodiscard]] RunCounts counts() const {
+        const Health& h = output_->health;
+        const CycleCounters& c = cycle_->counters();
+        const bool images = options_.drive.images;
+        return {{"frames_dropped", images ? h.frames_dropped : 0},
+                {"frames_without_right", images ? h.frames_without_right : 0},
+                {"detection_lists", detections_.lists_handed_over()},
+                {"detection_lists_late", h.lists_late},
+                {"detection_lists_too_late", h.lists_too_late},
+                {"detections_dropped_reading", drive_.detections.dropped},
+                {"detections_of_no_frame", drive_.detections.bad_frames},
+                {"detections_dropped", h.detections_dropped},
+                {"tracks_dropped", h.tracks_dropped},
+                {"features_rejected", h.features_rejected},
+                {"solver_failures", h.solver_failures},
+                {"can_frames", c.frames_sent},
+                {"can_lists", c.lists_sent},
+                {"can_lists_dropped", c.lists_dropped}};
+    }
+    [[nodiscard]] const std::vector<double>& total_us() const { return total_us_; }
+
+private:
+    bool one_frame() {
+        if (g_stop != 0) {
+            throw std::runtime_error("stopped by a signal");
+        }
+        const std::string where = "frame " + std::to_string(stereo_.frame() + 1);
+        switch (cycle_->step(*tracker_, *output_)) {
+            case CycleResult::kProcessed:
+                break;
+            case CycleResult::kEnd:
+                return false;
+            case CycleResult::kSourceError:
+                stereo_.rethrow();
+                throw std::runtime_error(where + ": a source failed");
+            case CycleResult::kNoFrame:
+            case CycleResult::kRefused:
+                throw std::runtime_error(where + ": the tracker refused its input");
+        }
+        writers_.add(stereo_.frame(), *output_, timer_.timing());
+        total_us_.push_back(timer_.timing().total_us);
+        if (pictures_) {
+            pictures_->add(stereo_.frame(), stereo_.left(), *output_);
+        }
+        return true;
+    }
+
+    const ReplayOptions& options_;
+    Drive& drive_;
+    StageTimer timer_;
+    ResultWriters writers_;
+    hal::CanLog can_log_;
+    SequenceStereoSource stereo_;
+    DelayedDetectionSource detections_;
+    std::optional<GivenPoseSource> ego_;
+    std::optional<PictureWriter> pictures_;
+    std::unique_ptr<Tracker> tracker_;
+    std::unique_ptr<Cycle> cycle_;
+    std::unique_ptr<Output> output_;
+    std::vector<double> total_us_;
+};
+
+}  // namespace
+
+void run_replay(const ReplayOptions& options) {
+    Drive drive = open(options);
+    const DriveTruth truth = truth_of(*drive.sequence);
+    ResultFolder folder(options.out);
+    (void)std::signal(SIGINT, stop_on_signal);
+    (void)std::signal(SIGTERM, stop_on_signal);
+    Metrics metrics;
+    std::vector<double> total_us;
+    {
+        Run run(options, drive, folder.work());
+        run.all_frames();
+        metrics = evaluate_results(folder.work(), truth);
+        metrics.run = run.counts();
+        total_us = run.total_us();
+    }
+    write_file(folder.work() / "metrics.json", to_json(metrics));
+    folder.commit();
+    (void)std::fputs(
+        summary_text(options.drive.layout + " " + options.drive.sequence, metrics, total_us, options.out.string())
+            .c_str(),
+        stdout);
+}
+
+}  // namespace semtrack::sil

@@ -1,0 +1,31 @@
+#include "sil/report/progress.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace semtrack::sil {
+
+namespace {
+constexpr const char* kEraseLine = "\r\x1b[K";
+}
+
+Progress::Progress(bool wanted, int total) : on_(wanted && total > 0 && ::isatty(STDERR_FILENO) == 1), total_(total) {}
+
+Progress::~Progress() {
+    if (on_) {
+        (void)std::fputs(kEraseLine, stderr);
+    }
+}
+
+void Progress::show(int done, int frame) {
+    const int tenth_percent = on_ ? static_cast<int>(1000LL * done / total_) : last_tenth_percent_;
+    if (tenth_percent == last_tenth_percent_) {
+        return;
+    }
+    last_tenth_percent_ = tenth_percent;
+    (void)std::fprintf(stderr, "%sframe %d  (%d of %d)", kEraseLine, frame, done, total_);
+    (void)std::fflush(stderr);
+}
+
+}  // namespace semtrack::sil

@@ -1,0 +1,47 @@
+// The result files of a run, row by row as the frames come.
+#ifndef SEMTRACK_SIL_REPORT_WRITERS_HPP
+#define SEMTRACK_SIL_REPORT_WRITERS_HPP
+
+#include <filesystem>
+#include <optional>
+
+#include "sil/report/tables.hpp"
+#include "sil/report/text_output.hpp"
+#include "sil/sequence.hpp"
+
+namespace semtrack::sil {
+
+/// ego.txt, frames.txt, ego.csv, objects.txt, states.csv, timing.csv, can.log (opened here, filled by a CanTx), with
+/// `points` points.csv. Throws std::runtime_error when one cannot be written.
+class ResultWriters {
+public:
+    /// cameras: with the mount that the tracker has.
+    ResultWriters(const std::filesystem::path& dir, const DriveCameras& cameras, bool points);
+    /// Once per frame number, growing. The first frame's camera is the origin of ego.txt.
+    void add(int frame, const Output& output, const FrameTiming& timing);
+    void close();
+    [[nodiscard]] std::FILE* can_log() { return can_log_.handle(); }
+
+private:
+    void add_ego(int frame, const Output& output);
+    void add_objects(int frame, const Output& output);
+    void add_points(int frame, const Output& output);
+
+    Pose T_v_c_;
+    Pose T_c_v_;
+    std::array<double, 3> t_c0_c_;
+    bool started_{false};
+    Pose T_first_w_{};  ///< from W to the first processed camera
+    TextOutput ego_;
+    TextOutput frames_;
+    TextOutput ego_csv_;
+    TextOutput objects_;
+    TextOutput states_;
+    TextOutput timing_;
+    TextOutput can_log_;
+    std::optional<TextOutput> points_;
+};
+
+}  // namespace semtrack::sil
+
+#endif

@@ -77,6 +77,16 @@ Drive open(const ReplayOptions& o) {
     return d;
 }
 
+SequenceStereoSource::Settings stereo_settings(const ReplayOptions& o, const Range& range) {
+    SequenceStereoSource::Settings s;
+    s.first = range.first;
+    s.last = range.last;
+    s.images = o.drive.images;
+    s.ahead = o.drive.layout != "world";
+    s.realtime = o.realtime;
+    return s;
+}
+
 class Run {
 public:
     Run(const ReplayOptions& options, Drive& drive, const std::filesystem::path& dir)
@@ -84,7 +94,7 @@ public:
           drive_(drive),
           writers_(dir, drive.cameras, options.points),
           can_log_(writers_.can_log()),
-          stereo_(*drive.sequence, {drive.range.first, drive.range.last, options.drive.images, options.realtime},
+          stereo_(*drive.sequence, stereo_settings(options, drive.range),
                   timer_),
           detections_(*drive.sequence, drive.detections.by_frame, drive.range.first, drive.range.last,
                       options.detection_delay),

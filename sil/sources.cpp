@@ -13,14 +13,14 @@ SequenceStereoSource::SequenceStereoSource(Sequence& sequence, const Settings& s
 }
 
 SequenceStereoSource::~SequenceStereoSource() {
-    if (ahead_.valid()) {
+    if (ahead_.valid() && settings_.ahead) {
         ahead_.wait();
     }
 }
 
 void SequenceStereoSource::decode_ahead(int frame) {
     if (settings_.images && frame <= settings_.last) {
-        ahead_ = std::async(std::launch::async, [this, frame] {
+        ahead_ = std::async(settings_.ahead ? std::launch::async : std::launch::deferred, [this, frame] {
             const FloatEnvironment environment;
             Pair pair;
             sequence_.load(frame, pair.left, pair.right);

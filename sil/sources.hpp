@@ -16,13 +16,14 @@
 
 namespace semtrack::sil {
 
-/// Frames first..last; the next pair is decoded in the background.
+/// Frames first..last; the next pair is decoded in the background, unless that is switched off.
 class SequenceStereoSource final : public StereoSource {
 public:
     struct Settings {
         int first{0};
         int last{0};
-        bool images{true};     ///< false: boxes only, every view is empty
+        bool images{true};    ///< false: boxes only, every view is empty
+        bool ahead{true};     ///< false: decoded when asked for; a rendered pair takes all cores, the tracker's too
         bool realtime{false};  ///< hand over at the drive's own pace
     };
     /// timer: told when a frame is handed over.

@@ -2,45 +2,51 @@
 
 namespace semtrack {
 
+void EgoHistory::reset() {
+    count_ = 0;
+    next_ = 0;
+}
+
 int EgoHistory::index_of(std::uint32_t frame) const {
     for (int i = 0; i < count_; ++i) {
-        if (entries_[static_cast<std::size_t>(i)].frame == frame) {
+        if (entry(i).frame == frame) {
             return i;
         }
     }
     return -1;
 }
 
-void EgoHistory::add(std::uint32_t frame, std::int64_t time_us, const Pose& T_w_c, std::uint32_t keyframe) {
-    if (count_ == 0) {
-        next_ = 0;
-    }
-    Entry& e = entries_[static_cast<std::size_t>(next_)];
-    Pose T_w_key;
-    const bool hangs = keyframe != frame && find(keyframe, T_w_key);
+void EgoHistory::add(std::uint32_t frame, std::int64_t time_us, const Pose& T_w_c) {
+    Entry& e = entry(next_);
     e.frame = frame;
-    e.keyframe = hangs ? keyframe : frame;
+    e.anchor = frame;
     e.time_us = time_us;
     e.T_w_c = T_w_c;
-    e.T_key_c = hangs ? T_w_key.inverse() * T_w_c : Pose{};
+    e.T_anchor_c = Pose{};
     next_ = next_ + 1 == kEgoHistory ? 0 : next_ + 1;
     count_ = count_ < kEgoHistory ? count_ + 1 : kEgoHistory;
 }
 
-void EgoHistory::make_keyframe(std::uint32_t frame) {
-    const int i = index_of(frame);
-    if (i < 0) {
-        return;
+void EgoHistory::revise(std::uint32_t frame, const Pose& T_w_c) {
+    for (int i = 0; i < count_; ++i) {
+        Entry& e = entry(i);
+        if (e.anchor == frame) {
+            e.T_w_c = e.frame == frame ? T_w_c : T_w_c * e.T_anchor_c;
+        }
     }
-    entries_[static_cast<std::size_t>(i)].keyframe = frame;
-    entries_[static_cast<std::size_t>(i)].T_key_c = Pose{};
 }
 
-void EgoHistory::revise(std::uint32_t keyframe, const Pose& T_w_c) {
+void EgoHistory::hang(std::uint32_t frame, std::uint32_t keyframe) {
+    const int at = index_of(keyframe);
+    if (at < 0 || index_of(frame) < 0 || frame == keyframe) {
+        return;
+    }
+    const Pose T_key_w = entry(at).T_w_c.inverse();
     for (int i = 0; i < count_; ++i) {
-        Entry& e = entries_[static_cast<std::size_t>(i)];
-        if (e.keyframe == keyframe) {
-            e.T_w_c = T_w_c * e.T_key_c;
+        Entry& e = entry(i);
+        if (e.anchor == frame) {
+            e.anchor = keyframe;
+            e.T_anchor_c = T_key_w * e.T_w_c;
         }
     }
 }
@@ -50,11 +56,22 @@ bool EgoHistory::find(std::uint32_t frame, Pose& T_w_c, std::int64_t* time_us) c
     if (i < 0) {
         return false;
     }
-    T_w_c = entries_[static_cast<std::size_t>(i)].T_w_c;
+    T_w_c = entry(i).T_w_c;
     if (time_us != nullptr) {
-        *time_us = entries_[static_cast<std::size_t>(i)].time_us;
+        *time_us = entry(i).time_us;
     }
     return true;
+}
+
+bool EgoHistory::find_time(std::int64_t time_us, std::uint32_t& frame, Pose& T_w_c) const {
+    for (int i = 0; i < count_; ++i) {
+        if (entry(i).time_us == time_us) {
+            frame = entry(i).frame;
+            T_w_c = entry(i).T_w_c;
+            return true;
+        }
+    }
+    return false;
 }
 
 }  // namespace semtrack

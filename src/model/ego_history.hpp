@@ -1,5 +1,5 @@
-// One ego history for everybody: poses of the last frames as the ego window last revised them. A keyframe's pose is the
-// window's; a frame between keyframes hangs on its keyframe by the relative pose that was found at its time.
+// One ego history for everybody: poses of the last frames as the ego window last revised them. A frame that the window
+// still holds has a pose of its own; one that left hangs on a keyframe and follows when that is revised.
 #ifndef SEMTRACK_MODEL_EGO_HISTORY_HPP
 #define SEMTRACK_MODEL_EGO_HISTORY_HPP
 
@@ -11,27 +11,35 @@
 
 namespace semtrack {
 
+/// The last kEgoHistory frames; frame numbers and times grow. W is the caller's. Lookups cost O(kEgoHistory).
 class EgoHistory {
 public:
-    void reset() { count_ = 0; }
-    /// frame grows from call to call. keyframe: number of the keyframe it hangs on (its own: it is one).
-    void add(std::uint32_t frame, std::int64_t time_us, const Pose& T_w_c, std::uint32_t keyframe);
-    /// A keyframe's revised pose; frames that hang on it follow.
-    void revise(std::uint32_t keyframe, const Pose& T_w_c);
-    /// A frame is to hang on itself from now on (it became a keyframe).
-    void make_keyframe(std::uint32_t frame);
+    void reset();
+    /// A new frame with a pose of its own; the oldest one goes when the history is full.
+    void add(std::uint32_t frame, std::int64_t time_us, const Pose& T_w_c);
+    /// A revised pose; frames that hang on this one follow.
+    void revise(std::uint32_t frame, const Pose& T_w_c);
+    /// From now on `frame`, and what hangs on it, follows `keyframe` with the relative pose of this moment. Nothing
+    /// happens when one of them is not in the history.
+    void hang(std::uint32_t frame, std::uint32_t keyframe);
     /// false: not in the history; outputs untouched.
     [[nodiscard]] bool find(std::uint32_t frame, Pose& T_w_c, std::int64_t* time_us = nullptr) const;
+    /// The frame with exactly this time stamp; false: none, outputs untouched.
+    [[nodiscard]] bool find_time(std::int64_t time_us, std::uint32_t& frame, Pose& T_w_c) const;
+    [[nodiscard]] int size() const { return count_; }
 
 private:
     struct Entry {
         std::uint32_t frame{0};
-        std::uint32_t keyframe{0};
+        std::uint32_t anchor{0};  // itself: a pose of its own
         std::int64_t time_us{0};
         Pose T_w_c{};
-        Pose T_key_c{};
+        Pose T_anchor_c{};
     };
     [[nodiscard]] int index_of(std::uint32_t frame) const;
+    [[nodiscard]] Entry& entry(int i) { return entries_[static_cast<std::size_t>(i)]; }
+    [[nodiscard]] const Entry& entry(int i) const { return entries_[static_cast<std::size_t>(i)]; }
+
     std::array<Entry, kEgoHistory> entries_{};
     int count_{0};
     int next_{0};

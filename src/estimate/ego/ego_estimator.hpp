@@ -3,6 +3,7 @@
 #ifndef SEMTRACK_ESTIMATE_EGO_EGO_ESTIMATOR_HPP
 #define SEMTRACK_ESTIMATE_EGO_EGO_ESTIMATOR_HPP
 
+#include "estimate/ego/ego_prediction.hpp"
 #include "estimate/ego/ego_problem.hpp"
 #include "estimate/ego/pose_tracker.hpp"
 #include "estimate/solver/levenberg_marquardt.hpp"
@@ -30,7 +31,7 @@ struct EgoResult {
     Mat6 covariance{Mat6::Zero()};         ///< of T_w_c (translation, rotation), perturbed in the current camera
     Mat6 motion_covariance{Mat6::Zero()};  ///< of T_prev_cur, likewise
     int features{0};                       ///< matched with an earlier frame
-    int inliers{0};
+    int inliers{0};                        ///< landmarks that the current frame saw where the estimate has them
     StaticVector<std::int16_t, kMaxBackgroundFeatures> outliers{};  ///< slots that the estimate refused
 };
 
@@ -38,21 +39,27 @@ class EgoEstimator {
 public:
     void init(const Calibration& calibration);
     /// Motion to expect until time_us, as T_cur_prev: a point in the last camera frame -> in the coming one. From the
-    /// vehicle's sensors when given, else the last motion scaled by the time.
+    /// vehicle's sensors when given, else the last motion scaled by the time. Identity before the first frame.
     [[nodiscard]] Pose predicted_motion(std::int64_t time_us, const VehicleMotion* motion) const;
-    /// kNotConverged: the images did not give a pose and it was predicted (status kPredicted). Cost: a pose fit of 14
-    /// and a window of 5 iterations.
+    /// One frame. Cost: a pose fit of 14 and a window of 5 iterations; system and step are workspace.
+    /// kInvalidArgument: time or frame number do not grow, or a given pose that is not finite; out and the state are
+    /// untouched. kNotConverged: the images did not give a pose and it was predicted (status kPredicted); the window
+    /// starts anew with this frame.
     Status process(const EgoInput& input, NormalEquations& system, SolverStep& step, EgoResult& out);
     [[nodiscard]] const EgoHistory& history() const { return history_; }
 
 private:
-    void push_frame(const EgoInput& input, const Pose& T_c_w);
-    void drop_frame(int index);
-    void take_features(const FrameFeatures& features);
-    void give_birth();
-    void solve_window(NormalEquations& system, SolverStep& step);
+    [[nodiscard]] MotionPrediction predict(std::int64_t time_us, const VehicleMotion* motion) const;
+    [[nodiscard]] bool acceptable(const EgoInput& input) const;
+    [[nodiscard]] bool track(const EgoInput& input, const Pose& T_c_w_predicted, NormalEquations& system,
+                             SolverStep& step, EgoResult& out, Mat6& covariance);
+    void push_frame(std::uint32_t frame, const Pose& T_c_w);
+    void restart(const EgoInput& input, const Pose& T_c_w);
+    void solve_window(NormalEquations& system, SolverStep& step, Mat6& covariance);
     void cull(EgoResult& out);
     [[nodiscard]] bool needs_keyframe() const;
+    void make_keyframe();
+    void remember(const EgoInput& input, const Pose& T_w_c);
     void finish(const EgoInput& input, EgoStatus status, const Pose& T_w_c, const Mat6& motion_covariance,
                 EgoResult& out);
 
@@ -62,13 +69,13 @@ private:
     EgoProblem problem_{};
     EgoHistory history_{};
     bool started_{false};
+    std::uint32_t frame_{0};
     std::int64_t time_us_{0};
     Pose T_w_c_{};
     Pose T_cur_prev_{};  // last motion
     double dt_s_{0};     // ... and the time it took
     Mat6 covariance_{Mat6::Zero()};
-    std::uint32_t last_keyframe_{0};
-    int keyframe_landmarks_{0};
+    int keyframe_landmarks_{0};  // that the newest keyframe saw
 };
 
 }  // namespace semtrack

@@ -8,41 +8,53 @@ namespace semtrack {
 namespace {
 
 constexpr double kTukey = 4.0;  // sigmas
-constexpr int kHeldFrames = 2;  // the oldest: measured better than four
 // A point that falls behind a camera costs what an outlier costs.
 constexpr double kBehindCost = 0.5 * kTukey * kTukey / 3.0;
+constexpr int kMinSeen = 6;  // landmarks that a free frame must see
 
 }  // namespace
 
-void EgoProblem::begin(const EgoWindow& window, const Calibration& calibration) {
-    window_ = &window;
-    calibration_ = &calibration;
-    frames_ = window.frames.size();
-    fixed_ = frames_ > kHeldFrames + 1 ? kHeldFrames : 1;
-    for (int k = 0; k < frames_; ++k) {
-        current_.T_c_w[static_cast<std::size_t>(k)] = window.frames[k].T_c_w;
-    }
+void EgoProblem::take_landmarks(std::array<int, kEgoFrames>& seen_by_frame) {
     points_ = 0;
     for (int s = 0; s < kMaxBackgroundFeatures; ++s) {
-        const EgoLandmark& landmark = window.landmarks[static_cast<std::size_t>(s)];
+        const EgoLandmark& landmark = window_->landmarks[static_cast<std::size_t>(s)];
         if (!landmark.valid) {
             continue;
         }
         int seen = 0;
-        for (int k = 0; k < frames_; ++k) {
-            seen += landmark.seen[static_cast<std::size_t>(window.frames[k].column)].valid ? 1 : 0;
+        for (const EgoFrame& frame : window_->frames) {
+            seen += window_->seen(s, frame).valid ? 1 : 0;
         }
         if (seen < 2) {
             continue;
         }
         slot_of_point_[static_cast<std::size_t>(points_)] = static_cast<std::int16_t>(s);
         current_.x_w[static_cast<std::size_t>(points_)] = landmark.x_w;
+        for (int k = 0; k < frames_; ++k) {
+            seen_by_frame[static_cast<std::size_t>(k)] += observation(points_, k).valid ? 1 : 0;
+        }
         ++points_;
     }
 }
 
+void EgoProblem::begin(const EgoWindow& window, const Calibration& calibration) {
+    window_ = &window;
+    calibration_ = &calibration;
+    frames_ = window.frames.size();
+    std::array<int, kEgoFrames> seen_by_frame{};
+    take_landmarks(seen_by_frame);
+    // The oldest pose is always held: without it the window could drift as a whole.
+    const int first_free = frames_ - kFreeFrames > 1 ? frames_ - kFreeFrames : 1;
+    free_ = 0;
+    for (int k = 0; k < frames_; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        current_.T_c_w[i] = window.frames[k].T_c_w;
+        block_[i] = k >= first_free && seen_by_frame[i] >= kMinSeen ? free_++ : -1;
+    }
+}
+
 void EgoProblem::store(EgoWindow& window) const {
-    for (int k = fixed_; k < frames_; ++k) {
+    for (int k = 0; k < frames_; ++k) {
         window.frames[k].T_c_w = current_.T_c_w[static_cast<std::size_t>(k)];
     }
     for (int p = 0; p < points_; ++p) {
@@ -52,57 +64,56 @@ void EgoProblem::store(EgoWindow& window) const {
 }
 
 double EgoProblem::try_step(const SolverStep& step) {
-    candidate_ = current_;
-    for (int k = fixed_; k < frames_; ++k) {
+    for (int k = 0; k < frames_; ++k) {
         const auto i = static_cast<std::size_t>(k);
-        candidate_.T_c_w[i] = perturbed_left(current_.T_c_w[i], step.frame[static_cast<std::size_t>(k - fixed_)]);
+        candidate_.T_c_w[i] = block_[i] < 0
+                                  ? current_.T_c_w[i]
+                                  : perturbed_left(current_.T_c_w[i], step.frame[static_cast<std::size_t>(block_[i])]);
     }
     for (int p = 0; p < points_; ++p) {
         const auto i = static_cast<std::size_t>(p);
-        candidate_.x_w[i] += step.point[i];
+        candidate_.x_w[i] = current_.x_w[i] + step.point[i];
     }
     return evaluate(candidate_, nullptr);
 }
 
 double EgoProblem::evaluate(const Variables& x, NormalEquations* system) const {
     if (system != nullptr) {
-        system->clear(frames_ - fixed_, points_, false);
+        system->clear(free_, points_, false);
     }
     double cost = 0.0;
     for (int p = 0; p < points_; ++p) {
-        const auto i = static_cast<std::size_t>(p);
-        const EgoLandmark& landmark = window_->landmarks[static_cast<std::size_t>(slot_of_point_[i])];
         for (int k = 0; k < frames_; ++k) {
-            const EgoObservation& o = landmark.seen[static_cast<std::size_t>(window_->frames[k].column)];
-            if (!o.valid) {
-                continue;
+            if (observation(p, k).valid) {
+                cost += add_observation(x, p, k, system);
             }
-            const Pose& T = x.T_c_w[static_cast<std::size_t>(k)];
-            const Vec3 x_c = T * x.x_w[i];
-            StereoPointResidual z;
-            if (stereo_point_residual(*calibration_, x_c, o.measurement(), system != nullptr, z) != Status::kOk) {
-                cost += kBehindCost;
-                continue;
-            }
-            const Robust rho = tukey(z.r.dot(z.r), kTukey);
-            cost += 0.5 * rho.rho;
-            if (system == nullptr || !(rho.weight > 0.0)) {
-                continue;
-            }
-            const Mat3 J_x = z.J * T.R;
-            const Vec3 wr = rho.weight * z.r;
-            system->add_point(p, rho.weight * (J_x.transpose() * J_x), J_x.transpose() * wr);
-            if (k < fixed_) {
-                continue;
-            }
-            Mat3x6 J;  // by (translation, rotation): x_c' = x_c + t + w x x_c
-            J.leftCols<3>() = z.J;
-            J.rightCols<3>() = -(z.J * skew(x_c));
-            system->add_frame(k - fixed_, rho.weight * (J.transpose() * J), J.transpose() * wr);
-            system->add_frame_point(k - fixed_, p, rho.weight * (J.transpose() * J_x));
         }
     }
     return cost;
+}
+
+double EgoProblem::add_observation(const Variables& x, int p, int k, NormalEquations* system) const {
+    const Pose& T = x.T_c_w[static_cast<std::size_t>(k)];
+    const Vec3 x_c = T * x.x_w[static_cast<std::size_t>(p)];
+    StereoPointResidual z;
+    if (stereo_point_residual(*calibration_, x_c, observation(p, k).measurement(), system != nullptr, z) !=
+        Status::kOk) {
+        return kBehindCost;
+    }
+    const Robust rho = tukey(z.r.dot(z.r), kTukey);
+    if (system != nullptr && rho.weight > 0.0) {
+        const Mat3 J_x = z.J * T.R;
+        const Mat3 wJ_x = rho.weight * J_x;
+        system->add_point(p, J_x.transpose() * wJ_x, wJ_x.transpose() * z.r);
+        const int block = block_[static_cast<std::size_t>(k)];
+        if (block >= 0) {
+            const Mat3x6 J = pose_jacobian(z.J, x_c);
+            const Mat3x6 wJ = rho.weight * J;
+            system->add_frame(block, J.transpose() * wJ, wJ.transpose() * z.r);
+            system->add_frame_point(block, p, J.transpose() * wJ_x);
+        }
+    }
+    return 0.5 * rho.rho;
 }
 
 }  // namespace semtrack

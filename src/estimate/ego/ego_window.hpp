@@ -1,4 +1,7 @@
 // Keyframes, landmarks and observations of the background (paper Sect. 5.1).
+//
+// The window holds the newest kDenseFrames frames whatever they are (points near the road live for a few frames only
+// and say most about the motion), and of the older ones the keyframes.
 #ifndef SEMTRACK_ESTIMATE_EGO_EGO_WINDOW_HPP
 #define SEMTRACK_ESTIMATE_EGO_EGO_WINDOW_HPP
 
@@ -7,6 +10,7 @@
 
 #include "estimate/factor/stereo_point.hpp"
 #include "math/pose.hpp"
+#include "model/feature.hpp"
 #include "semtrack/capacity.hpp"
 #include "semtrack/static_vector.hpp"
 
@@ -14,6 +18,8 @@ namespace semtrack {
 
 /// The keyframes and the current frame.
 inline constexpr int kEgoFrames = kEgoWindow + 1;
+inline constexpr int kDenseFrames = 3;
+static_assert(kDenseFrames < kEgoFrames, "room for keyframes");
 
 struct EgoFrame {
     std::uint32_t frame{0};
@@ -31,16 +37,7 @@ struct EgoObservation {
     float sigma_px{1};
     float sigma_right_px{1};
 
-    [[nodiscard]] StereoPointMeasurement measurement() const {
-        StereoPointMeasurement z;
-        z.u = static_cast<double>(u);
-        z.v = static_cast<double>(v);
-        z.u_right = static_cast<double>(u_right);
-        z.stereo = stereo;
-        z.sigma_px = static_cast<double>(sigma_px);
-        z.sigma_right_px = static_cast<double>(sigma_right_px);
-        return z;
-    }
+    [[nodiscard]] StereoPointMeasurement measurement() const;
 };
 
 /// Background feature n, ^0 f_n; index = the feature's slot.
@@ -49,18 +46,31 @@ struct EgoLandmark {
     bool valid{false};  ///< x_w is known
     Vec3 x_w{Vec3::Zero()};
     std::array<EgoObservation, kEgoFrames> seen{};  ///< by column
+
+    /// x_w and all observations are forgotten.
+    void forget();
 };
 
 struct EgoWindow {
     StaticVector<EgoFrame, kEgoFrames> frames{};  ///< oldest first; the last one is the current frame
     std::array<EgoLandmark, kMaxBackgroundFeatures> landmarks{};
 
-    void clear() {
-        frames.clear();
-        for (EgoLandmark& l : landmarks) {
-            l.id = 0;
-            l.valid = false;
-        }
+    void clear();
+    /// The index of the frame that must leave before the next push; -1: there is room and nothing too old.
+    [[nodiscard]] int leaving() const;
+    void drop(int index);
+    /// Makes room with drop(leaving()) first. The new frame has seen nothing yet.
+    void push(std::uint32_t frame, const Pose& T_c_w);
+    /// What the current frame measured. Rows of other owners, with a slot out of range or with numbers that are not
+    /// finite are left out; a new id empties its slot.
+    void take(const FrameFeatures& features, const Calibration& calibration);
+    /// Landmarks without a position start at the stereo point of the current frame.
+    void give_birth(const Calibration& calibration);
+    /// Newest keyframe before the current frame; -1: none.
+    [[nodiscard]] int last_keyframe() const;
+
+    [[nodiscard]] const EgoObservation& seen(int slot, const EgoFrame& frame) const {
+        return landmarks[static_cast<std::size_t>(slot)].seen[static_cast<std::size_t>(frame.column)];
     }
 };
 

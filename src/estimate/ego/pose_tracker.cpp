@@ -1,7 +1,5 @@
 #include "estimate/ego/pose_tracker.hpp"
 
-#include <cmath>
-
 #include "math/cholesky6.hpp"
 #include "math/robust.hpp"
 #include "math/so3.hpp"
@@ -11,31 +9,40 @@ namespace semtrack {
 namespace {
 
 constexpr int kMinMatches = 6;
+constexpr double kCauchy = 1.0;  // each in sigmas, after the round's scale
+constexpr double kHuber = 1.5;
+constexpr double kTukey = 5.0;
+
+enum class Kernel { kWide, kMiddle, kNarrow };
 
 struct Round {
     int iterations;
     double scale;  // sigmas are multiplied by it
-    int kernel;    // 0 Cauchy, 1 Huber, 2 Tukey
+    Kernel kernel;
 };
-constexpr Round kRounds[] = {{6, 4.0, 0}, {4, 2.0, 1}, {4, 1.0, 2}};
-constexpr double kTukeyPose = 5.0;
+constexpr std::array<Round, 3> kRounds{{{6, 4.0, Kernel::kWide}, {4, 2.0, Kernel::kMiddle}, {4, 1.0, Kernel::kNarrow}}};
 
-Robust kernel(int kind, double r2) {
-    if (kind == 0) {
-        return cauchy(r2, 1.0);
+Robust robust(Kernel kernel, double r2) {
+    switch (kernel) {
+        case Kernel::kWide:
+            return cauchy(r2, kCauchy);
+        case Kernel::kMiddle:
+            return huber(r2, kHuber);
+        case Kernel::kNarrow:
+            break;
     }
-    return kind == 1 ? huber(r2, 1.5) : tukey(r2, kTukeyPose);
+    return tukey(r2, kTukey);
 }
 
 /// H and g of one round at T; returns the matches in front of the camera.
-int accumulate(const EgoWindow& window, int column, const Calibration& calibration, const Pose& T, const Round& round,
-               Mat6& H, Vec6& g) {
+int accumulate(const EgoWindow& window, const EgoFrame& frame, const Calibration& calibration, const Pose& T,
+               const Round& round, Mat6& H, Vec6& g) {
     H.setZero();
     g.setZero();
     int used = 0;
     const double scale2 = 1.0 / (round.scale * round.scale);
     for (const EgoLandmark& landmark : window.landmarks) {
-        const EgoObservation& o = landmark.seen[static_cast<std::size_t>(column)];
+        const EgoObservation& o = landmark.seen[static_cast<std::size_t>(frame.column)];
         if (!landmark.valid || !o.valid) {
             continue;
         }
@@ -44,51 +51,60 @@ int accumulate(const EgoWindow& window, int column, const Calibration& calibrati
         if (stereo_point_residual(calibration, x_c, o.measurement(), true, z) != Status::kOk) {
             continue;
         }
-        const Robust rho = kernel(round.kernel, scale2 * z.r.dot(z.r));
-        Mat3x6 J;
-        J.leftCols<3>() = z.J;
-        J.rightCols<3>() = -(z.J * skew(x_c));
-        H += (rho.weight * scale2) * (J.transpose() * J);
-        g += (rho.weight * scale2) * (J.transpose() * z.r);
         ++used;
+        const double weight = robust(round.kernel, scale2 * z.r.dot(z.r)).weight * scale2;
+        if (!(weight > 0.0)) {
+            continue;
+        }
+        const Mat3x6 J = pose_jacobian(z.J, x_c);
+        const Mat3x6 wJ = weight * J;
+        H += J.transpose() * wJ;
+        g += wJ.transpose() * z.r;
     }
     return used;
 }
 
-}  // namespace
-
-bool fit_pose(const EgoWindow& window, int column, const Calibration& calibration, Pose& T_c_w, PoseFit& fit) {
-    fit = PoseFit{};
-    Pose T = T_c_w;
-    Mat6 H;
-    Vec6 g;
-    for (const Round& round : kRounds) {
-        for (int k = 0; k < round.iterations; ++k) {
-            fit.matches = accumulate(window, column, calibration, T, round, H, g);
-            Vec6 step;
-            if (fit.matches < kMinMatches || !solve6(H, g, step)) {
-                return false;
-            }
-            T = perturbed_left(T, -step);
-        }
-    }
-    if (!is_finite(T)) {
-        return false;
-    }
-    (void)accumulate(window, column, calibration, T, kRounds[2], H, g);
-    if (!inverse6(H, fit.covariance)) {
-        return false;
-    }
+int count_inliers(const EgoWindow& window, const EgoFrame& frame, const Calibration& calibration, const Pose& T) {
+    int inliers = 0;
     for (const EgoLandmark& landmark : window.landmarks) {
-        const EgoObservation& o = landmark.seen[static_cast<std::size_t>(column)];
+        const EgoObservation& o = landmark.seen[static_cast<std::size_t>(frame.column)];
         if (!landmark.valid || !o.valid) {
             continue;
         }
         StereoPointResidual z;
         const bool ahead =
             stereo_point_residual(calibration, T * landmark.x_w, o.measurement(), false, z) == Status::kOk;
-        fit.inliers += ahead && z.r.dot(z.r) < kPoseGate * kPoseGate ? 1 : 0;
+        inliers += ahead && z.r.dot(z.r) < kPoseGate * kPoseGate ? 1 : 0;
     }
+    return inliers;
+}
+
+}  // namespace
+
+bool fit_pose(const EgoWindow& window, const EgoFrame& frame, const Calibration& calibration, Pose& T_c_w,
+              PoseFit& fit) {
+    fit = PoseFit{};
+    Pose T = T_c_w;
+    Mat6 H;
+    Vec6 g;
+    for (const Round& round : kRounds) {
+        for (int k = 0; k < round.iterations; ++k) {
+            fit.matches = accumulate(window, frame, calibration, T, round, H, g);
+            Vec6 step;
+            if (fit.matches < kMinMatches || !solve6(H, g, step)) {
+                return false;
+            }
+            T = perturbed_left(T, -step);
+            if (!is_finite(T)) {
+                return false;
+            }
+        }
+    }
+    (void)accumulate(window, frame, calibration, T, kRounds.back(), H, g);
+    if (!inverse6(H, fit.covariance)) {
+        return false;
+    }
+    fit.inliers = count_inliers(window, frame, calibration, T);
     T_c_w = T;
     return true;
 }

@@ -16,8 +16,9 @@ struct PoseFit {
 inline constexpr double kPoseGate = 5.0;
 
 /// Gauss-Newton on 6 parameters with kernels that narrow: Cauchy, Huber, Tukey (Tukey from the start jumped). Fixed
-/// iterations. false: fewer than 6 matches or a singular matrix; T_c_w is then untouched.
-[[nodiscard]] bool fit_pose(const EgoWindow& window, int column, const Calibration& calibration, Pose& T_c_w,
+/// iterations: 14 over the landmarks seen in `frame`. False: fewer than 6 matches or a singular matrix; T_c_w is then
+/// untouched.
+[[nodiscard]] bool fit_pose(const EgoWindow& window, const EgoFrame& frame, const Calibration& calibration, Pose& T_c_w,
                             PoseFit& fit);
 
 }  // namespace semtrack

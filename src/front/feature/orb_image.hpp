@@ -1,0 +1,69 @@
+// Levels of the pyramid, rendered one from the other, and the smoothing before descriptors. Integers only.
+#ifndef SEMTRACK_FRONT_FEATURE_ORB_IMAGE_HPP
+#define SEMTRACK_FRONT_FEATURE_ORB_IMAGE_HPP
+
+#include <array>
+#include <cstdint>
+
+#include "front/feature/brief_pattern.hpp"
+#include "semtrack/capacity.hpp"
+#include "semtrack/hal/feature_extractor.hpp"
+#include "semtrack/image_view.hpp"
+
+namespace semtrack {
+
+inline constexpr int kMaxPyramidLevels = 8;
+
+/// Size of a level: rounded size / 1.2^level.
+[[nodiscard]] constexpr int level_size(int full_size, int level) {
+    std::int64_t numerator = full_size;
+    std::int64_t denominator = 1;
+    for (int k = 0; k < level; ++k) {
+        numerator *= 5;
+        denominator *= 6;
+    }
+    return static_cast<int>((2 * numerator + denominator) / (2 * denominator));
+}
+
+/// Centre of pixel x of a level, in full resolution and 1/64 px, counted from the image's border (so >> 6 is the pixel
+/// it falls into; minus 32 it counts from the first pixel's centre).
+[[nodiscard]] constexpr int full_position_64(int x, int full_size, int size) {
+    return (64 * (2 * x + 1) * full_size) / (2 * size);
+}
+
+/// Bilinear, weights of 1/128, for steps between 1 and 2.
+class ImageResizer {
+public:
+    /// out has room for width x height and is written row by row with stride `width`. Cost O(width x height).
+    void resize(const ImageView& in, int width, int height, std::uint8_t* out);
+
+private:
+    struct Tap {
+        std::int16_t at{0};      ///< left or upper of the two
+        std::int16_t next{0};    ///< 1; 0 at the border
+        std::int16_t weight{0};  ///< of the other, 1/128
+    };
+    [[nodiscard]] static Tap tap(int x, int in_size, int size);
+    std::array<Tap, static_cast<std::size_t>(kMaxImageWidth)> columns_{};
+};
+
+/// Owners of the level's pixels: that of the full-resolution pixel their centre falls into.
+void resize_mask(const OwnerMaskView& in, int width, int height, std::uint8_t* out);
+
+/// Binomial filter of 7 x 7 (sigma 1.2 px), the border replicated.
+class ImageSmoother {
+public:
+    /// out: as large as the image, with the width as stride. Cost O(pixels).
+    void smooth(const ImageView& in, std::uint8_t* out);
+
+private:
+    static constexpr int kTaps = 7;
+    void filter_row(const ImageView& in, int y);
+    std::array<std::array<std::uint16_t, static_cast<std::size_t>(kMaxImageWidth)>, static_cast<std::size_t>(kTaps)>
+        rows_{};
+    std::array<std::uint8_t, static_cast<std::size_t>(kMaxImageWidth) + kTaps - 1> padded_{};
+};
+
+}  // namespace semtrack
+
+#endif

@@ -92,7 +92,7 @@ public:
     Run(const ReplayOptions& options, Drive& drive, const std::filesystem::path& dir)
         : options_(options),
           drive_(drive),
-          writers_(dir, drive.cameras, options.points),
+          writers_(dir, drive.cameras, options.dialect, options.points),
           can_log_(writers_.can_log()),
           stereo_(*drive.sequence, stereo_settings(options, drive.range),
                   timer_),
@@ -176,7 +176,7 @@ private:
             case CycleResult::kRefused:
                 throw std::runtime_error(where + ": the tracker refused its input");
         }
-        writers_.add(stereo_.frame(), *output_, timer_.timing());
+        writers_.add(stereo_.frame(), *output_, cycle_->encoder().list_counter(), timer_.timing());
         total_us_.push_back(timer_.timing().total_us);
         if (pictures_) {
             pictures_->add(stereo_.frame(), stereo_.left(), *output_);

@@ -2,6 +2,7 @@
 #ifndef SEMTRACK_CAN_ENCODER_HPP
 #define SEMTRACK_CAN_ENCODER_HPP
 
+#include <array>
 #include <cstdint>
 
 #include "semtrack/can_frame.hpp"
@@ -34,11 +35,13 @@ public:
     /// (the header holds the image's age). kCapacity: objects were left out, nearest and most certain first; the
     /// header counts them and the frames are complete all the same.
     Status encode(const Output& output, std::int64_t now_us, CanList& frames);
+    /// Of the last list.
+    [[nodiscard]] std::uint8_t list_counter() const { return list_counter_; }
 
 private:
     CanConfig config_{};
     std::uint8_t list_counter_{0};
-    std::array<std::uint8_t, 256> e2e_counter_{};  // per message of the table
+    std::array<std::uint8_t, 16> e2e_counter_{};  // per message of the table
 };
 
 }  // namespace semtrack

@@ -45,6 +45,7 @@ public:
     /// Sets and restores the floating-point environment (round to nearest, no flush to zero).
     [[nodiscard]] CycleResult step(Tracker& tracker, Output& output) noexcept;
     [[nodiscard]] const CycleCounters& counters() const { return counters_; }
+    [[nodiscard]] const CanEncoder& encoder() const { return encoder_; }
 
 private:
     void publish(const Output& output, std::int64_t time_us);

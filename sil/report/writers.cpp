@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "sil/report/list_table.hpp"
+
 namespace semtrack::sil {
 
 namespace {
@@ -18,19 +20,23 @@ std::vector<const TrackedObject*> sorted_by_id(const Output& output) {
 
 }  // namespace
 
-ResultWriters::ResultWriters(const std::filesystem::path& dir, const DriveCameras& cameras, bool points)
+ResultWriters::ResultWriters(const std::filesystem::path& dir, const DriveCameras& cameras, CanDialect dialect,
+                             bool points)
     : T_v_c_(to_pose(cameras.calibration.T_v_c)),
       T_c_v_(T_v_c_.inverse()),
       t_c0_c_(cameras.t_c0_c),
+      dialect_(dialect),
       ego_(dir / "ego.txt"),
       frames_(dir / "frames.txt"),
       ego_csv_(dir / "ego.csv"),
       objects_(dir / "objects.txt"),
       states_(dir / "states.csv"),
+      list_(dir / "list.csv"),
       timing_(dir / "timing.csv"),
       can_log_(dir / "can.log") {
     ego_csv_.write(ego_header());
     states_.write(states_header());
+    list_.write(list_header());
     timing_.write(timing_header());
     if (points) {
         points_.emplace(dir / "points.csv");
@@ -38,9 +44,10 @@ ResultWriters::ResultWriters(const std::filesystem::path& dir, const DriveCamera
     }
 }
 
-void ResultWriters::add(int frame, const Output& output, const FrameTiming& timing) {
+void ResultWriters::add(int frame, const Output& output, std::uint8_t list_counter, const FrameTiming& timing) {
     add_ego(frame, output);
     add_objects(frame, output);
+    list_.write(list_rows(frame, output, dialect_, list_counter));
     if (points_) {
         add_points(frame, output);
     }
@@ -84,7 +91,7 @@ void ResultWriters::add_points(int frame, const Output& output) {
 }
 
 void ResultWriters::close() {
-    for (TextOutput* file : {&ego_, &frames_, &ego_csv_, &objects_, &states_, &timing_, &can_log_}) {
+    for (TextOutput* file : {&ego_, &frames_, &ego_csv_, &objects_, &states_, &list_, &timing_, &can_log_}) {
         file->close();
     }
     if (points_) {

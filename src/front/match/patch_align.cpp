@@ -6,10 +6,11 @@ namespace semtrack {
 
 namespace {
 
-constexpr int kIterations = 8;
-constexpr float kSettled_px = 0.01F;
-constexpr float kMinTexture = 300.0F;  // sum of squared gradients over the patch: below, noise decides
-constexpr int kSource = kPatch + 2;    // with one more pixel around for gradients
+constexpr int kIterations = 12;
+constexpr float kSettled_px = 0.02F;
+constexpr float kNearlySettled_px = 0.1F;  // after the last iteration
+constexpr float kMinTexture = 300.0F;      // sum of squared gradients over the patch: below, noise decides
+constexpr int kSource = kPatch + 2;        // with one more pixel around for gradients
 
 int floor_int(float x) {
     const int i = static_cast<int>(x);

@@ -42,6 +42,15 @@ using CoarsePatch = std::array<std::uint8_t, static_cast<std::size_t>(kCoarse) *
 [[nodiscard]] inline bool coarse_inside(const PatchImage& image, int x, int y) {
     return x >= 0 && y >= 0 && x + kCoarse <= image.width() && y + kCoarse <= image.height();
 }
+/// Where the minimum lies between three distances at -1, 0, 1: -0.5 .. 0.5 (parabola).
+[[nodiscard]] inline float parabola_offset(int before, int here, int after) {
+    const int curvature = before - 2 * here + after;
+    if (curvature <= 0) {
+        return 0.0F;
+    }
+    const float offset = 0.5F * static_cast<float>(before - after) / static_cast<float>(curvature);
+    return offset < -0.5F ? -0.5F : offset > 0.5F ? 0.5F : offset;
+}
 void copy_coarse(const PatchImage& image, int x, int y, CoarsePatch& out);
 /// Sum of absolute differences at a corner that is inside.
 [[nodiscard]] int coarse_distance(const CoarsePatch& patch, const PatchImage& image, int x, int y);

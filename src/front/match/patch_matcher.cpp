@@ -13,10 +13,10 @@ constexpr int kFastThreshold = 10;
 constexpr int kBorder_px = 14;
 constexpr int kRadiusYoung = 10;  // half-size px: the owner's motion is not known yet
 constexpr int kRadius = 4;
-constexpr int kMaxCoarseDistance = kCoarse * kCoarse * 16;
+constexpr int kMaxCoarseDistance = kCoarse * kCoarse * 26;
 constexpr float kMaxShift_px = 3.0F;  // of the refinement: the coarse search is right to a pixel
-constexpr float kMinCorrelation = 0.80F;
-constexpr float kRenewCorrelation = 0.92F;
+constexpr float kMinCorrelation = 0.75F;
+constexpr float kRenewCorrelation = 0.85F;
 constexpr std::uint16_t kRenewAge = 6;  // frames: never renewing loses features, every frame makes them drift
 constexpr float kMaxScale = 1.15F;
 constexpr double kFallbackDepth_m = 20.0;
@@ -100,9 +100,17 @@ bool PatchMatcher::search(const Appearance& a, float u, float v, int radius, Fou
             }
         }
     }
-    found.u = 2.0F * static_cast<float>(best_x) + a.coarse_du;
-    found.v = 2.0F * static_cast<float>(best_y) + a.coarse_dv;
-    return any;
+    if (!any) {
+        return false;
+    }
+    const auto around = [&](int dx, int dy) {
+        return coarse_inside(left_half_, best_x + dx, best_y + dy)
+                   ? coarse_distance(a.coarse, left_half_, best_x + dx, best_y + dy)
+                   : best;
+    };
+    found.u = 2.0F * (static_cast<float>(best_x) + parabola_offset(around(-1, 0), best, around(1, 0))) + a.coarse_du;
+    found.v = 2.0F * (static_cast<float>(best_y) + parabola_offset(around(0, -1), best, around(0, 1))) + a.coarse_dv;
+    return true;
 }
 
 bool PatchMatcher::follow_one(const MatcherInput& in, int owner, int s, double fallback_depth_m) {
@@ -145,6 +153,7 @@ bool PatchMatcher::follow_one(const MatcherInput& in, int owner, int s, double f
     ++slot.age;
     ++a.age;
     m.sigma_px = kSigma_px;
+    remember_coarse(slot, a);
     // The disparity that the motion predicts; none when the depth was only a guess.
     const double d = in.calibration->left.fx * in.calibration->baseline_m / x_now(2);
     const bool keep_scale = scale < kMaxScale && scale > 1.0F / kMaxScale;
@@ -163,15 +172,21 @@ void PatchMatcher::remember(const MatcherInput& in, FeatureSlot& slot, Appearanc
     if (!take_reference(in.left, slot.u, slot.v, a.reference)) {
         return;
     }
-    const int x = coarse_corner(slot.u);
-    const int y = coarse_corner(slot.v);
-    if (coarse_inside(left_half_, x, y)) {
-        copy_coarse(left_half_, x, y, a.coarse);
-    }
-    a.coarse_du = slot.u - 2.0F * static_cast<float>(x);
-    a.coarse_dv = slot.v - 2.0F * static_cast<float>(y);
     a.reference_depth_m = depth_m;
     a.age = 0;
+}
+
+// The coarse patch is the newest one: it only has to be right to a pixel, so it may drift, and it follows the change of
+// scale.
+void PatchMatcher::remember_coarse(const FeatureSlot& slot, Appearance& a) const {
+    const int x = coarse_corner(slot.u);
+    const int y = coarse_corner(slot.v);
+    if (!coarse_inside(left_half_, x, y)) {
+        return;
+    }
+    copy_coarse(left_half_, x, y, a.coarse);
+    a.coarse_du = slot.u - 2.0F * static_cast<float>(x);
+    a.coarse_dv = slot.v - 2.0F * static_cast<float>(y);
 }
 
 void PatchMatcher::follow(const MatcherInput& in, int owner) {
@@ -224,6 +239,7 @@ void PatchMatcher::add_new(const MatcherInput& in) {
         slot.stereo = false;
         slot.age = 0;
         remember(in, slot, a, 0.0F);
+        remember_coarse(slot, a);
         if (!template_.build(a.reference, 1.0F)) {
             continue;
         }

@@ -35,7 +35,7 @@ private:
         float coarse_du{0};  // position minus twice the coarse corner, when the patch was taken
         float coarse_dv{0};
         float reference_depth_m{0};  // 0: unknown, no change of scale is assumed
-        std::uint16_t age{0};        // frames since it was taken
+        std::uint16_t age{0};        // frames since the reference was taken
     };
     struct Found {
         float u{0};
@@ -49,9 +49,11 @@ private:
     void add_new(const MatcherInput& in);
     [[nodiscard]] bool match_stereo(const MatcherInput& in, int owner, FeatureSlot& slot, const Appearance& a,
                                     float predicted_disparity, float& sigma_px);
-    [[nodiscard]] bool search_row(const CoarsePatch& patch, int y, int from, int to, bool unique, int& best_x) const;
+    [[nodiscard]] bool search_row(const CoarsePatch& patch, int y, int from, int to, bool unique, int& best_x,
+                                  float& offset) const;
     [[nodiscard]] bool search_back(int x_right, int y, int from, int to, int x_left) const;
     void remember(const MatcherInput& in, FeatureSlot& slot, Appearance& a, float depth_m) const;
+    void remember_coarse(const FeatureSlot& slot, Appearance& a) const;
     [[nodiscard]] double owner_depth(const MatcherInput& in, int owner);
     [[nodiscard]] bool allowed(const MatcherInput& in, int owner, float u, float v) const;
     [[nodiscard]] float depth_of(const MatcherInput& in, const FeatureSlot& slot) const;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kRowReach = 1;        // half-size rows: +-2 px about the calibrated offset
 constexpr int kPredictedReach = 4;  // half-size px about a predicted disparity
-constexpr int kMaxDistance = kCoarse * kCoarse * 18;
+constexpr int kMaxDistance = kCoarse * kCoarse * 28;
 constexpr int kUniqueNumerator = 23;  // second best must be 15 % worse
 constexpr int kUniqueDenominator = 20;
 constexpr int kUniqueApart = 2;  // half-size px: nearer is the same minimum
@@ -23,8 +23,10 @@ constexpr float kMaxSigma_px = 2.0F;
 
 }  // namespace
 
-bool PatchMatcher::search_row(const CoarsePatch& patch, int y, int from, int to, bool unique, int& best_x) const {
+bool PatchMatcher::search_row(const CoarsePatch& patch, int y, int from, int to, bool unique, int& best_x,
+                              float& offset) const {
     int best = kMaxDistance;
+    int best_row = y;
     int second = 1 << 30;
     bool any = false;
     int previous_best_x = -1000;
@@ -40,6 +42,7 @@ bool PatchMatcher::search_row(const CoarsePatch& patch, int y, int from, int to,
                 }
                 best = d;
                 best_x = x;
+                best_row = row;
                 previous_best_x = x;
                 any = true;
             } else if (d < second && (x - best_x > kUniqueApart || best_x - x > kUniqueApart)) {
@@ -50,7 +53,16 @@ bool PatchMatcher::search_row(const CoarsePatch& patch, int y, int from, int to,
     if (any && unique && second < kMaxDistance * 2 && second * kUniqueDenominator < best * kUniqueNumerator) {
         return false;
     }
-    return any;
+    if (!any) {
+        return false;
+    }
+    const auto beside = [&](int dx) {
+        return coarse_inside(right_half_, best_x + dx, best_row)
+                   ? coarse_distance(patch, right_half_, best_x + dx, best_row)
+                   : best;
+    };
+    offset = parabola_offset(beside(-1), best, beside(1));
+    return true;
 }
 
 // The match of the match is where it started.
@@ -99,13 +111,14 @@ bool PatchMatcher::match_stereo(const MatcherInput& in, int owner, FeatureSlot& 
     const int from = x_left - static_cast<int>(0.5 * (d_high + shift)) - 1;
     const int to = x_left - static_cast<int>(0.5 * (d_low + shift)) + 1;
     int x_right = 0;
-    if (!search_row(patch, y_left, from, to, !predicted, x_right)) {
+    float offset = 0.0F;
+    if (!search_row(patch, y_left, from, to, !predicted, x_right, offset)) {
         return false;
     }
     if (!predicted && !search_back(x_right, y_left, x_right + (x_left - to), x_right + (x_left - from), x_left)) {
         return false;
     }
-    float u_right = slot.u + 2.0F * static_cast<float>(x_right - x_left);
+    float u_right = slot.u + 2.0F * (static_cast<float>(x_right - x_left) + offset);
     const double v = static_cast<double>(slot.v);
     const double d_coarse = disparity(c, static_cast<double>(slot.u), static_cast<double>(u_right));
     const double v_centred = v - c.left.cy;

@@ -144,9 +144,6 @@ void finish_replay(const Words& w, ReplayOptions& o) {
     if (o.first && o.last && *o.first > *o.last) {
         throw InputError("--first " + std::to_string(*o.first) + " is greater than --last " + std::to_string(*o.last));
     }
-    if (o.pictures && !o.drive.images && o.drive.layout == "world") {
-        throw InputError("--pictures: not with --images none");
-    }
     o.config.cues = parse_cues(w, o.drive.images);
     o.config.camera_height_m = w.camera_height_m;
     o.dialect = w.can_dialect == "classic" ? CanDialect::kClassic : CanDialect::kFd;

@@ -20,7 +20,13 @@ struct Round {
     double scale;  // sigmas are multiplied by it
     Kernel kernel;
 };
-constexpr std::array<Round, 3> kRounds{{{6, 4.0, Kernel::kWide}, {4, 2.0, Kernel::kMiddle}, {4, 1.0, Kernel::kNarrow}}};
+constexpr std::array<Round, 5> kRounds{{{3, 64.0, Kernel::kWide},
+                                        {3, 16.0, Kernel::kWide},
+                                        {6, 4.0, Kernel::kWide},
+                                        {4, 2.0, Kernel::kMiddle},
+                                        {4, 1.0, Kernel::kNarrow}}};
+constexpr std::size_t kFineRound = 2;  // where a good prediction starts: the wide rounds follow outliers away from it
+constexpr double kAgreement = 0.6;     // inliers of the matches; below, the prediction was no good
 
 Robust robust(Kernel kernel, double r2) {
     switch (kernel) {
@@ -79,17 +85,15 @@ int count_inliers(const EgoWindow& window, const EgoFrame& frame, const Calibrat
     return inliers;
 }
 
-}  // namespace
-
-bool fit_pose(const EgoWindow& window, const EgoFrame& frame, const Calibration& calibration, Pose& T_c_w,
-              PoseFit& fit) {
+bool fit_from(const EgoWindow& window, const EgoFrame& frame, const Calibration& calibration, std::size_t first_round,
+              Pose& T_c_w, PoseFit& fit) {
     fit = PoseFit{};
     Pose T = T_c_w;
     Mat6 H;
     Vec6 g;
-    for (const Round& round : kRounds) {
-        for (int k = 0; k < round.iterations; ++k) {
-            fit.matches = accumulate(window, frame, calibration, T, round, H, g);
+    for (std::size_t i = first_round; i < kRounds.size(); ++i) {
+        for (int k = 0; k < kRounds[i].iterations; ++k) {
+            fit.matches = accumulate(window, frame, calibration, T, kRounds[i], H, g);
             Vec6 step;
             if (fit.matches < kMinMatches || !solve6(H, g, step)) {
                 return false;
@@ -107,6 +111,27 @@ bool fit_pose(const EgoWindow& window, const EgoFrame& frame, const Calibration&
     fit.inliers = count_inliers(window, frame, calibration, T);
     T_c_w = T;
     return true;
+}
+
+}  // namespace
+
+bool fit_pose(const EgoWindow& window, const EgoFrame& frame, const Calibration& calibration, Pose& T_c_w,
+              PoseFit& fit) {
+    Pose T = T_c_w;
+    bool found = fit_from(window, frame, calibration, kFineRound, T, fit);
+    if (!found || fit.inliers < kAgreement * fit.matches) {
+        Pose T_wide = T_c_w;
+        PoseFit wide;
+        if (fit_from(window, frame, calibration, 0, T_wide, wide) && (!found || wide.inliers > fit.inliers)) {
+            found = true;
+            T = T_wide;
+            fit = wide;
+        }
+    }
+    if (found) {
+        T_c_w = T;
+    }
+    return found;
 }
 
 }  // namespace semtrack

@@ -15,9 +15,10 @@ struct PoseFit {
 
 inline constexpr double kPoseGate = 5.0;
 
-/// Gauss-Newton on 6 parameters with kernels that narrow: Cauchy, Huber, Tukey (Tukey from the start jumped). Fixed
-/// iterations: 14 over the landmarks seen in `frame`. False: fewer than 6 matches or a singular matrix; T_c_w is then
-/// untouched.
+/// Gauss-Newton on 6 parameters with kernels that narrow: Cauchy, Huber, Tukey (Tukey from the start jumped). When few
+/// of the landmarks agree, it is tried again from kernels that are wide enough for a first frame without prediction,
+/// and the pose with more inliers stays. Fixed iterations: 14 or 34 over the landmarks seen in `frame`. False: fewer
+/// than 6 matches or a singular matrix; T_c_w is then untouched.
 [[nodiscard]] bool fit_pose(const EgoWindow& window, const EgoFrame& frame, const Calibration& calibration, Pose& T_c_w,
                             PoseFit& fit);
 

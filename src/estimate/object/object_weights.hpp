@@ -1,5 +1,4 @@
-// Covariances of the object's cost terms, one set for all drives. Source: residuals of KITTI labels and of real
-// detectors against them (docs/weights.md says how each was found).
+// Covariances of the object's cost terms, one set for all drives; docs/weights.md says what each was set by.
 #ifndef SEMTRACK_ESTIMATE_OBJECT_OBJECT_WEIGHTS_HPP
 #define SEMTRACK_ESTIMATE_OBJECT_OBJECT_WEIGHTS_HPP
 

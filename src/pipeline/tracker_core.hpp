@@ -56,6 +56,7 @@ private:
     void take_list(const DetectionList& list, std::uint32_t frame);
     void attach(Track& track, int index, const DetectionList& list, int item, std::uint32_t frame);
     void start_track(const DetectionList& list, int item, std::uint32_t frame);
+    void fill_window(ObjectWindow& window, const ObjectState& first, std::int64_t first_us, std::uint32_t first_frame);
     void watch_heading(Track& track, int index, const Detection& detection);
     [[nodiscard]] bool infer(const Detection& detection, const Pose& T_c_l, const Vec3& size_m, const double* theta,
                              ObjectState& x) const;

@@ -329,41 +329,12 @@ bool TrackerCore::infer(const Detection& detection, const Pose& T_c_l, const Vec
     return true;
 }
 
-void TrackerCore::start_track(const DetectionList& list, int item, std::uint32_t frame) {
-    const Detection& detection = list.items[item];
-    const ClassPrior& prior = class_prior(detection.object_class);
-    std::uint32_t found = 0;
-    Pose T_w_c;
-    if (!frame_of(list.time_us, found, T_w_c)) {
-        return;
-    }
-    const Pose T_c_w = T_w_c.inverse();
-    const Pose T_c_l{T_c_w.R * level_.R_l_w().transpose(), T_c_w.t};
-    ObjectState x;
-    if (!infer(detection, T_c_l, prior.size_m, nullptr, x)) {
-        return;
-    }  // too much of it outside: not observable yet
-    int slot = -1;
-    Track* track = tracks_.start(detection.object_class, detection.score, slot);
-    if (track == nullptr) {
-        ++health_.tracks_dropped;
-        return;
-    }
-    ObjectWindow& window = track->window;
-    window.R_l_w = level_.R_l_w();
-    window.size_m = prior.size_m;
-    window.size_covariance = prior.size_sigma_m.cwiseProduct(prior.size_sigma_m).asDiagonal();
-    const Vec3 p_c = T_c_l * x.p;
-    const double depth = kStartDepthSigma * std::sqrt(p_c.dot(p_c));
-    Vec6 variance;
-    variance << depth * depth, depth * depth, 0.25, 0.25, 100.0, 0.02;
-    window.covariance = variance.asDiagonal();
-    track->box = detection.box;
-    track->hit_now = frame == frame_;
-    // One frame at the list's own time, then one for every frame until now.
-    ObjectState state = x;
-    std::int64_t stamp_us = list.time_us;
-    for (std::uint32_t k = frame; k <= frame_; ++k) {
+// One frame at the list's own time, then one for every frame until now.
+void TrackerCore::fill_window(ObjectWindow& window, const ObjectState& first, std::int64_t first_us,
+                              std::uint32_t first_frame) {
+    ObjectState state = first;
+    std::int64_t stamp_us = first_us;
+    for (std::uint32_t k = first_frame; k <= frame_; ++k) {
         Pose unused;
         std::int64_t next_us = time_us_;
         if (k != frame_ && !ego_.history().find(k, unused, &next_us)) {
@@ -383,6 +354,40 @@ void TrackerCore::start_track(const DetectionList& list, int item, std::uint32_t
             break;
         }
     }
+}
+
+void TrackerCore::start_track(const DetectionList& list, int item, std::uint32_t frame) {
+    const Detection& detection = list.items[item];
+    const ClassPrior& prior = class_prior(detection.object_class);
+    std::uint32_t found = 0;
+    Pose T_w_c;
+    if (!frame_of(list.time_us, found, T_w_c)) {
+        return;
+    }
+    const Pose T_c_w = T_w_c.inverse();
+    const Pose T_c_l{T_c_w.R * level_.R_l_w().transpose(), T_c_w.t};
+    ObjectState x;
+    if (!infer(detection, T_c_l, prior.size_m, nullptr, x)) {
+        return;  // too much of it outside: not observable yet
+    }
+    int slot = -1;
+    Track* track = tracks_.start(detection.object_class, detection.score, slot);
+    if (track == nullptr) {
+        ++health_.tracks_dropped;
+        return;
+    }
+    ObjectWindow& window = track->window;
+    window.R_l_w = level_.R_l_w();
+    window.size_m = prior.size_m;
+    window.size_covariance = prior.size_sigma_m.cwiseProduct(prior.size_sigma_m).asDiagonal();
+    const Vec3 p_c = T_c_l * x.p;
+    const double depth = kStartDepthSigma * std::sqrt(p_c.dot(p_c));
+    Vec6 variance;
+    variance << depth * depth, depth * depth, 0.25, 0.25, 100.0, 0.02;
+    window.covariance = variance.asDiagonal();
+    track->box = detection.box;
+    track->hit_now = frame == frame_;
+    fill_window(window, x, list.time_us, frame);
     BoxMeasurement& box = window.frames[0].box;
     box.valid = true;
     box.box = detection.box;

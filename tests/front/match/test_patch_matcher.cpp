@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "front/match/patch_matcher.hpp"
-#include "front/match/plane_scene.hpp"
+#include "support/plane_scene.hpp"
 
 namespace semtrack {
 namespace {

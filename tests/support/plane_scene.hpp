@@ -1,6 +1,6 @@
 // A textured wall and, before it, a textured board, both facing the camera: every match is known exactly.
-#ifndef SEMTRACK_TESTS_FRONT_MATCH_PLANE_SCENE_HPP
-#define SEMTRACK_TESTS_FRONT_MATCH_PLANE_SCENE_HPP
+#ifndef SEMTRACK_TESTS_SUPPORT_PLANE_SCENE_HPP
+#define SEMTRACK_TESTS_SUPPORT_PLANE_SCENE_HPP
 
 #include <cmath>
 #include <cstdint>

@@ -23,11 +23,13 @@ public:
 
     /// The window's newest frame holds a prediction and the new measurements. After the call: states, size, covariance
     /// and landmarks are updated. Scratch is passed in: one workspace serves ego-motion and all objects.
-    /// Cost: two solves of 5 iterations.
+    /// Cost: two solves of 5 iterations, a third one
+    /// when the heading is in doubt. An empty window is not solved.
     ObjectSolveReport solve(ObjectWindow& window, NormalEquations& system, SolverStep& step);
 
 private:
     void run(ObjectWindow& window, bool standing, NormalEquations& system, SolverStep& step);
+    void try_other_heading(const ObjectWindow& window, bool standing, NormalEquations& system, SolverStep& step);
     void cull(const ObjectWindow& window, ObjectSolveReport& report) const;
     void give_birth(ObjectWindow& window) const;
 
@@ -36,6 +38,7 @@ private:
     ObjectProblem problem_{};
     LmReport lm_{};
     ObjectVariables moving_{};  // result of the moving hypothesis, while standing is tried
+    ObjectVariables chosen_{};  // the better hypothesis, while another heading is tried
 };
 
 }  // namespace semtrack

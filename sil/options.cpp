@@ -112,12 +112,6 @@ void refuse_what_is_not_built(const Words& w) {
     if (w.features == "simulated") {
         throw InputError("--features simulated: not available yet");
     }
-    if (w.extractor == "opencv") {
-        throw InputError("--extractor opencv: not available yet");
-    }
-    if (w.matcher == "orb") {
-        throw InputError("--matcher orb: not available yet");
-    }
     if (!w.can_interface.empty()) {
         throw InputError("--can " + w.can_interface + ": not available yet");
     }
@@ -146,6 +140,16 @@ void finish_replay(const Words& w, ReplayOptions& o) {
     }
     o.config.cues = parse_cues(w, o.drive.images);
     o.config.camera_height_m = w.camera_height_m;
+    o.config.matcher = w.matcher == "orb" ? MatcherKind::kOrb : MatcherKind::kPatch;
+    o.opencv_extractor = w.extractor == "opencv";
+#ifndef SEMTRACK_HAS_OPENCV
+    if (o.opencv_extractor) {
+        throw InputError("--extractor opencv: this program was built without OpenCV");
+    }
+#endif
+    if (o.opencv_extractor && o.config.matcher != MatcherKind::kOrb) {
+        throw InputError("--extractor opencv: only with --matcher orb");
+    }
     o.dialect = w.can_dialect == "classic" ? CanDialect::kClassic : CanDialect::kFd;
     o.progress = !w.no_progress;
 }

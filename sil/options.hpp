@@ -30,6 +30,7 @@ struct ReplayOptions {
     std::optional<int> last;
     std::string detections{"none"};  ///< none, labels or a file
     int detection_delay{0};
+    bool opencv_extractor{false};
     Config config{};
     std::filesystem::path mount;
     CanDialect dialect{CanDialect::kFd};

@@ -6,6 +6,9 @@
 #include <optional>
 
 #include "hal/loopback/can_log.hpp"
+#ifdef SEMTRACK_HAS_OPENCV
+#include "hal/opencv/opencv_extractor.hpp"
+#endif
 #include "semtrack/cycle.hpp"
 #include "sil/evaluation.hpp"
 #include "sil/kitti/detection_file.hpp"
@@ -94,8 +97,7 @@ public:
           drive_(drive),
           writers_(dir, drive.cameras, options.dialect, options.points),
           can_log_(writers_.can_log()),
-          stereo_(*drive.sequence, stereo_settings(options, drive.range),
-                  timer_),
+          stereo_(*drive.sequence, stereo_settings(options, drive.range), timer_),
           detections_(*drive.sequence, drive.detections.by_frame, drive.range.first, drive.range.last,
                       options.detection_delay),
           tracker_(std::make_unique<Tracker>()),
@@ -108,7 +110,15 @@ public:
         if (options.pictures) {
             pictures_.emplace(dir, drive.cameras.calibration, *drive.sequence);
         }
-        if (tracker_->init(options.config, drive.cameras.calibration, nullptr, &timer_) != Status::kOk) {
+#ifdef SEMTRACK_HAS_OPENCV
+        if (options.opencv_extractor) {
+            extractor_.emplace();
+        }
+        FeatureExtractor* const extractor = extractor_ ? &*extractor_ : nullptr;
+#else
+        FeatureExtractor* const extractor = nullptr;
+#endif
+        if (tracker_->init(options.config, drive.cameras.calibration, extractor, &timer_) != Status::kOk) {
             throw InputError(options.drive.sequence + ": the tracker refuses the calibration or the image size");
         }
         CyclePorts ports;
@@ -156,7 +166,9 @@ public:
                 {"can_lists", c.lists_sent},
                 {"can_lists_dropped", c.lists_dropped}};
     }
-    [[nodiscard]] const std::vector<double>& total_us() const { return total_us_; }
+    [[nodiscard]] const std::vector<double>& total_us() const {
+        return total_us_;
+    }
 
 private:
     bool one_frame() {
@@ -193,6 +205,9 @@ private:
     DelayedDetectionSource detections_;
     std::optional<GivenPoseSource> ego_;
     std::optional<PictureWriter> pictures_;
+#ifdef SEMTRACK_HAS_OPENCV
+    std::optional<OpenCvExtractor> extractor_;
+#endif
     std::unique_ptr<Tracker> tracker_;
     std::unique_ptr<Cycle> cycle_;
     std::unique_ptr<Output> output_;

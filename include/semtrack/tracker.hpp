@@ -14,7 +14,7 @@
 namespace semtrack {
 
 /// Bytes of a Tracker: all of its state. src/pipeline/tracker.cpp asserts at compile time that it fits.
-inline constexpr std::size_t kTrackerBytes = std::size_t{8} * 1024U * 1024U;
+inline constexpr std::size_t kTrackerBytes = std::size_t{10} * 1024U * 1024U;
 
 /// Ego-motion and object tracking, Li, Qin, Shen (ECCV 2018). No heap, no exception, no clock, no global state:
 /// the same calls give the same bytes. Not thread safe; different Trackers are independent. Place it in static

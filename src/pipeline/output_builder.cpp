@@ -128,10 +128,14 @@ void describe_ego_motion(const EgoResult& result, const Pose& T_v_c, EgoState& o
     A.bottomRightCorner<3, 3>() = skew(T_v_c.t) * T_v_c.R;
     const Mat6 C = A * result.covariance * A.transpose();
     for (int r = 0; r < 6; ++r) {
-        for (int c = 0; c < 6; ++c) { out.covariance[static_cast<std::size_t>(6 * r + c)] = C(r, c); }
+        for (int c = 0; c < 6; ++c) {
+            out.covariance[static_cast<std::size_t>(6 * r + c)] = C(r, c);
+        }
     }
     out.speed = out.yaw_rate = out.sigma_speed = out.sigma_yaw_rate = 0.0;
-    if (!(result.dt_s > 0.0)) { return; }
+    if (!(result.dt_s > 0.0)) {
+        return;
+    }
     const Mat6 M = A * result.motion_covariance * A.transpose();
     out.speed = T_v_prev_cur.t(0) / result.dt_s;
     out.yaw_rate = so3_log(T_v_prev_cur.R)(2) / result.dt_s;

@@ -60,7 +60,8 @@ Status TrackerCore::init(const Config& config, const Calibration& calibration, F
     objects_.init(calibration, config);
     tracks_.reset();
     patch_.reset();
-    extractor_ = extractor;
+    orb_.reset();
+    orb_.set_extractor(extractor != nullptr ? extractor : &native_extractor_);
     health_ = Health{};
     ready_ = true;
     return Status::kOk;

@@ -9,7 +9,9 @@
 #include "estimate/object/object_estimator.hpp"
 #include "front/associate/associate.hpp"
 #include "front/box/infer_box.hpp"
+#include "front/feature/orb_extractor.hpp"
 #include "front/mask/owner_mask_builder.hpp"
+#include "front/match/orb_matcher.hpp"
 #include "front/match/patch_matcher.hpp"
 #include "front/ransac/reject.hpp"
 #include "pipeline/level.hpp"
@@ -77,7 +79,6 @@ private:
 
     Config config_{};
     Calibration calibration_{};
-    FeatureExtractor* extractor_{nullptr};
     StageObserver* observer_{nullptr};
     bool ready_{false};
     bool started_{false};
@@ -95,6 +96,8 @@ private:
     ObjectEstimator objects_{};
     TrackTable tracks_{};
     PatchMatcher patch_{};
+    OrbExtractor native_extractor_{};
+    OrbMatcher orb_{};  // in place of patch_ when the configuration says so
     OwnerMaskBuilder mask_builder_{};
     OwnerMask mask_left_{};
     OwnerMask mask_right_{};

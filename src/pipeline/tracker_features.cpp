@@ -124,7 +124,8 @@ void TrackerCore::match(const Input& input) {
     in.calibration = &calibration_;
     in.frame = frame_;
     in.observer = observer_;
-    const Status status = patch_.process(in, features_);
+    const Status status =
+        config_.matcher == MatcherKind::kOrb ? orb_.process(in, features_) : patch_.process(in, features_);
     if (status != Status::kOk) {
         features_.clear();
         return;
@@ -134,7 +135,11 @@ void TrackerCore::match(const Input& input) {
 }
 
 void TrackerCore::drop_feature(int owner, int slot) {
-    patch_.reject(owner, slot);
+    if (config_.matcher == MatcherKind::kOrb) {
+        orb_.reject(owner, slot);
+    } else {
+        patch_.reject(owner, slot);
+    }
 }
 
 void TrackerCore::reject() {

@@ -14,7 +14,7 @@ class KittiData : public testing::Test {
 protected:
     void SetUp() override {
         const char* root = std::getenv("SEMTRACK_KITTI");
-        if (root == nullptr) {
+        if (root == nullptr || *root == 0) {
             GTEST_SKIP() << "SEMTRACK_KITTI is not set";
         }
         root_ = root;

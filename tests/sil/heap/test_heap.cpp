@@ -96,7 +96,7 @@ TEST_P(Heap, IsNotTouchedByInitNorByAnyCycle) {
     EXPECT_EQ(output->health.frames_dropped, 1U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Matchers, Heap, ::testing::Values(MatcherKind::kPatch),
+INSTANTIATE_TEST_SUITE_P(Matchers, Heap, ::testing::Values(MatcherKind::kPatch, MatcherKind::kOrb),
                          [](const auto& matcher) { return matcher.param == MatcherKind::kPatch ? "Patch" : "Orb"; });
 
 // Positive control: the counter sees each way to allocate. Through volatile: compilers delete free(malloc(1)).

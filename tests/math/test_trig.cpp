@@ -12,9 +12,13 @@ namespace {
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
+long double wide(double x) { return static_cast<long double>(x); }
+
+double error(double x, long double truth) { return static_cast<double>(std::fabs(wide(x) - truth)); }
+
 double relative(double x, long double truth) {
     const long double scale = truth == 0.0L ? 1.0L : std::fabs(truth);
-    return static_cast<double>(std::fabs(static_cast<long double>(x) - truth) / scale);
+    return static_cast<double>(std::fabs(wide(x) - truth) / scale);
 }
 
 TEST(SinCos, AbsoluteErrorBelowFourTenthsOfAQuadrillionth) {
@@ -22,9 +26,7 @@ TEST(SinCos, AbsoluteErrorBelowFourTenthsOfAQuadrillionth) {
     for (int i = -400000; i <= 400000; ++i) {
         const double x = i * 0.00005 * kPi + i * 1e-7;
         const SinCos s = sin_cos(x);
-        const long double lx = x;
-        worst = std::max({worst, static_cast<double>(std::fabs(s.sin - std::sin(lx))),
-                          static_cast<double>(std::fabs(s.cos - std::cos(lx)))});
+        worst = std::max({worst, error(s.sin, std::sin(wide(x))), error(s.cos, std::cos(wide(x)))});
     }
     EXPECT_LT(worst, 4e-16);
 }
@@ -34,9 +36,7 @@ TEST(SinCos, FarFromZeroToTheEndOfItsRange) {
     for (int i = 0; i <= 20000; ++i) {
         const double x = (i % 2 == 0 ? 1.0 : -1.0) * 4.99999 * i;
         const SinCos s = sin_cos(x);
-        const long double lx = x;
-        worst = std::max({worst, static_cast<double>(std::fabs(s.sin - std::sin(lx))),
-                          static_cast<double>(std::fabs(s.cos - std::cos(lx)))});
+        worst = std::max({worst, error(s.sin, std::sin(wide(x))), error(s.cos, std::cos(wide(x)))});
     }
     EXPECT_LT(worst, 4e-16);
 }
@@ -53,7 +53,7 @@ TEST(SinCos, ExactAtZeroAndQuietBeyondItsRange) {
 TEST(Tan, RelativeErrorAcrossTheQuadrant) {
     for (int i = -1500; i <= 1500; ++i) {
         const double x = i * 0.001;
-        EXPECT_LT(relative(tan_rad(x), std::tan(static_cast<long double>(x))), 2e-15) << x;
+        EXPECT_LT(relative(tan_rad(x), std::tan(wide(x))), 2e-15) << x;
     }
 }
 
@@ -62,10 +62,10 @@ TEST(Atan2, RelativeErrorInAllQuadrantsAndScales) {
     for (int i = -2000; i < 2000; ++i) {
         const long double angle = i * 3.14159265358979323846L / 2000.0L + 1e-5L;
         for (const double radius : {1e-150, 1e-3, 1.0, 1e5, 1e150}) {
-            const double y = static_cast<double>(radius * std::sin(angle));
-            const double x = static_cast<double>(radius * std::cos(angle));
+            const double y = static_cast<double>(wide(radius) * std::sin(angle));
+            const double x = static_cast<double>(wide(radius) * std::cos(angle));
             worst = std::max(
-                worst, relative(atan2_rad(y, x), std::atan2(static_cast<long double>(y), static_cast<long double>(x))));
+                worst, relative(atan2_rad(y, x), std::atan2(wide(y), wide(x))));
         }
     }
     EXPECT_LT(worst, 4e-16);
@@ -82,7 +82,7 @@ TEST(Atan2, AxesAndOrigin) {
 TEST(Asin, AccurateAndClampedAtItsEnds) {
     for (int i = -1000; i <= 1000; ++i) {
         const double x = i * 0.001;
-        EXPECT_NEAR(asin_rad(x), static_cast<double>(std::asin(static_cast<long double>(x))), 2e-15) << x;
+        EXPECT_NEAR(asin_rad(x), static_cast<double>(std::asin(wide(x))), 2e-15) << x;
     }
     EXPECT_DOUBLE_EQ(asin_rad(1.5), 0.5 * kPi);
     EXPECT_DOUBLE_EQ(asin_rad(-7.0), -0.5 * kPi);
@@ -91,7 +91,7 @@ TEST(Asin, AccurateAndClampedAtItsEnds) {
 TEST(Exp, RelativeErrorAndClamping) {
     for (int i = -7000; i <= 7000; ++i) {
         const double x = i * 0.1;
-        EXPECT_LT(relative(exp_real(x), std::exp(static_cast<long double>(x))), 1e-15) << x;
+        EXPECT_LT(relative(exp_real(x), std::exp(wide(x))), 1e-15) << x;
     }
     EXPECT_EQ(exp_real(1e6), exp_real(700.0));
     EXPECT_EQ(exp_real(-1e6), exp_real(-700.0));
@@ -99,7 +99,7 @@ TEST(Exp, RelativeErrorAndClamping) {
 
 TEST(Log, RelativeErrorAndInverseOfExp) {
     for (const double x : {1e-300, 1e-9, 0.5, 0.999999, 1.0000001, 2.0, 1e9, 1e300}) {
-        EXPECT_NEAR(log_real(x), static_cast<double>(std::log(static_cast<long double>(x))),
+        EXPECT_NEAR(log_real(x), static_cast<double>(std::log(wide(x))),
                     1e-15 * std::max(1.0, std::fabs(std::log(x))))
             << x;
     }

@@ -8,7 +8,6 @@ namespace {
 
 constexpr int kIterations = 12;
 constexpr float kSettled_px = 0.02F;
-constexpr float kNearlySettled_px = 0.1F;  // after the last iteration
 constexpr float kMinTexture = 300.0F;      // sum of squared gradients over the patch: below, noise decides
 constexpr int kSource = kPatch + 2;        // with one more pixel around for gradients
 

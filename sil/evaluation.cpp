@@ -11,6 +11,7 @@
 #include "sil/open_drive.hpp"
 #include "sil/report/summary.hpp"
 #include "sil/report/text_output.hpp"
+#include "sil/result_rows.hpp"
 
 namespace semtrack::sil {
 
@@ -64,52 +65,6 @@ Trajectory processed_camera(const std::map<int, RigidTransform>& camera0, const 
     return out;
 }
 
-std::vector<ObjectRow> read_object_rows(const fs::path& path) {
-    const TextFile file(path, false);
-    std::vector<ObjectRow> rows;
-    std::set<std::pair<int, int>> seen;
-    for (const TextRow& text : file.rows()) {
-        file.require_words(text, 18, 19);  // 18: without speed, as KITTI's own results
-        ObjectRow row;
-        row.frame = file.integer(text, 0);
-        row.id = file.integer(text, 1);
-        row.type = std::string(text.words[2]);
-        row.truncated = file.number(text, 3);
-        row.occluded = file.integer(text, 4);
-        row.box = {file.number(text, 6), file.number(text, 7), file.number(text, 8), file.number(text, 9)};
-        row.size_m = Vec3(file.number(text, 12), file.number(text, 11), file.number(text, 10));
-        row.bottom_c0 = Vec3(file.number(text, 13), file.number(text, 14), file.number(text, 15));
-        row.rotation_y = file.number(text, 16);
-        row.score = file.number(text, 17);
-        row.speed = text.words.size() > 18 ? file.number(text, 18) : 0.0;
-        if (!(row.size_m(0) > 0.0 && row.size_m(1) > 0.0 && row.size_m(2) > 0.0)) {
-            file.refuse(text, "a box needs positive sizes");
-        }
-        if (!seen.insert({row.frame, row.id}).second) {
-            file.refuse(text, "the same frame and id twice");
-        }
-        rows.push_back(row);
-    }
-    return rows;
-}
-
-Trajectory read_trajectory(const fs::path& dir, const std::vector<int>& frames) {
-    const fs::path path = dir / "ego.txt";
-    if (frames.empty()) {
-        throw InputError((dir / "frames.txt").string() + ": holds no frames");
-    }
-    const std::map<int, RigidTransform> poses = read_poses(path, frames);
-    if (poses.size() != frames.size()) {
-        throw InputError(path.string() + ": has " + std::to_string(poses.size()) + " poses, frames.txt has " +
-                         std::to_string(frames.size()));
-    }
-    Trajectory out;
-    for (const auto& [frame, T] : poses) {
-        out[frame] = to_pose(T);
-    }
-    return out;
-}
-
 ResultCounts count(const Trajectory& ego, const std::vector<ObjectRow>& objects) {
     ResultCounts c;
     c.frames = static_cast<int>(ego.size());
@@ -158,7 +113,9 @@ DriveTruth read_odometry_truth(const DriveOptions& options) {
 
 DriveTruth truth_of(const Sequence& sequence) {
     DriveTruth truth;
-    truth.ego = processed_camera(sequence.ego_truth(), sequence.cameras().t_c0_c);
+    truth.calibration = sequence.cameras().calibration;
+    truth.t_c0_c = sequence.cameras().t_c0_c;
+    truth.ego = processed_camera(sequence.ego_truth(), truth.t_c0_c);
     truth.objects.labels = label_rows(sequence);
     truth.objects.frames = sequence.labelled_frames();
     for (const auto& [frame, T] : sequence.ego_truth()) {
@@ -190,23 +147,54 @@ DriveTruth read_truth(const DriveOptions& options) {
     }
 }
 
-Metrics evaluate_results(const fs::path& dir, const DriveTruth& truth) {
-    const std::vector<int> frames = read_frame_list(dir / "frames.txt");
-    const Trajectory ego = read_trajectory(dir, frames);
-    const bool has_objects = fs::exists(dir / "objects.txt");
-    std::vector<ObjectRow> objects;
-    if (has_objects) {
-        objects = read_object_rows(dir / "objects.txt");
+ResultFiles read_results(const fs::path& dir) {
+    ResultFiles out;
+    out.frames = read_frame_list(dir / "frames.txt");
+    out.ego = read_trajectory(dir, out.frames);
+    out.has_objects = fs::exists(dir / "objects.txt");
+    if (out.has_objects) {
+        out.objects = read_object_rows(dir / "objects.txt");
     }
+    if (fs::exists(dir / "states.csv") && fs::exists(dir / "ego.csv")) {
+        out.states = read_state_rows(dir / "states.csv");
+        out.ego_motion = read_ego_motion_rows(dir / "ego.csv");
+    }
+    return out;
+}
+
+Metrics compare(const ResultFiles& results, const DriveTruth& truth) {
     Metrics metrics;
-    metrics.counts = count(ego, objects);
+    metrics.counts = count(results.ego, results.objects);
     if (!truth.ego.empty()) {
-        metrics.ego = compare_trajectories(ego, truth.ego);
+        metrics.ego = compare_trajectories(results.ego, truth.ego);
     }
-    if (has_objects && !truth.objects.labels.empty()) {
-        metrics.objects = compare_objects(objects, frames, truth.objects);
+    if (results.has_objects && !truth.objects.labels.empty()) {
+        const Pose T_c_c0{Mat3::Identity(), -Vec3(truth.t_c0_c[0], truth.t_c0_c[1], truth.t_c0_c[2])};
+        std::map<int, Pose> T_f_c0;
+        for (const auto& [frame, T] : results.ego) {
+            T_f_c0[frame] = T * T_c_c0;
+        }
+        metrics.objects = compare_objects(results.objects, results.frames, truth.objects, T_f_c0);
+        metrics.object_scores.emplace();
+        metrics.object_scores->add(results.objects, results.frames, truth.objects);
+    }
+    if (!results.ego_motion.empty()) {
+        ConsistencyInput in;
+        in.objects = &results.objects;
+        in.states = &results.states;
+        in.ego = &results.ego_motion;
+        in.result_frames = &results.frames;
+        in.truth = &truth.objects;
+        in.T_first_c = results.ego;
+        in.truth_T_f_c = truth.ego;
+        in.calibration = truth.calibration;
+        metrics.consistency = check_consistency(in);
     }
     return metrics;
+}
+
+Metrics evaluate_results(const fs::path& dir, const DriveTruth& truth) {
+    return compare(read_results(dir), truth);
 }
 
 void run_evaluate(const EvaluateOptions& options) {

@@ -13,6 +13,17 @@ namespace semtrack::sil {
 struct DriveTruth {
     Trajectory ego{};  ///< processed camera, in the frame of the file; empty: none
     ObjectTruthSet objects{};
+    std::array<double, 3> t_c0_c{};            ///< x_c0 = x_c + t_c0_c
+    std::optional<Calibration> calibration{};  ///< empty: not read
+};
+
+struct ResultFiles {
+    std::vector<int> frames;
+    Trajectory ego;
+    bool has_objects{false};
+    std::vector<ObjectRow> objects;
+    std::vector<StateRow> states;  ///< empty, as ego_motion, in a folder that another program made
+    std::vector<EgoMotionRow> ego_motion;
 };
 
 /// Labels' boxes are moved into the processed left image.
@@ -22,6 +33,8 @@ struct DriveTruth {
 
 /// DIR/ego.txt and frames.txt, and objects.txt where it is. InputError by line: rows that do not fit together,
 /// doubled or falling frame numbers, an object without size, the same frame and id twice.
+[[nodiscard]] ResultFiles read_results(const std::filesystem::path& dir);
+[[nodiscard]] Metrics compare(const ResultFiles& results, const DriveTruth& truth);
 [[nodiscard]] Metrics evaluate_results(const std::filesystem::path& dir, const DriveTruth& truth);
 
 /// `semtrack-sil evaluate`: writes DIR/metrics.json (the run's own counts in an older one are kept) and prints.

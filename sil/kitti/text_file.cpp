@@ -34,6 +34,33 @@ std::vector<std::string_view> split(std::string_view line) {
     return words;
 }
 
+std::string_view trimmed(std::string_view word) {
+    while (!word.empty() && is_blank(word.front())) {
+        word.remove_prefix(1);
+    }
+    while (!word.empty() && is_blank(word.back())) {
+        word.remove_suffix(1);
+    }
+    return word;
+}
+
+std::vector<std::string_view> split_at(std::string_view line, char separator) {
+    std::vector<std::string_view> fields;
+    line = trimmed(line);
+    while (!line.empty()) {
+        const std::size_t end = line.find(separator);
+        fields.push_back(trimmed(line.substr(0, end)));
+        if (end == std::string_view::npos) {
+            break;
+        }
+        line.remove_prefix(end + 1);
+        if (line.empty()) {
+            fields.emplace_back();
+        }
+    }
+    return fields;
+}
+
 }  // namespace
 
 std::string quoted_word(std::string_view word) {
@@ -45,7 +72,7 @@ std::string quoted_word(std::string_view word) {
     return out + (word.size() > kLongest ? "...'" : "'");
 }
 
-TextFile::TextFile(const std::filesystem::path& path, bool counted) : name_(path.string()) {
+TextFile::TextFile(const std::filesystem::path& path, bool counted, char separator) : name_(path.string()) {
     std::ifstream in(path, std::ios::binary);
     if (!in || std::filesystem::is_directory(path)) {
         throw InputError(name_ + ": cannot be read");
@@ -63,7 +90,8 @@ TextFile::TextFile(const std::filesystem::path& path, bool counted) : name_(path
         std::size_t end = text.find('\n', begin);
         end = end == std::string_view::npos ? text.size() : end;
         ++line;
-        TextRow row{line, split(text.substr(begin, end - begin))};
+        const std::string_view here = text.substr(begin, end - begin);
+        TextRow row{line, separator == '\0' ? split(here) : split_at(here, separator)};
         if (row.words.empty()) {
             first_blank = first_blank == 0 ? line : first_blank;
         } else {

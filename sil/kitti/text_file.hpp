@@ -19,7 +19,8 @@ class TextFile {
 public:
     /// Throws InputError when it cannot be read or starts with a byte-order mark. Rows keep pointing into this object.
     /// counted: the rows' numbers mean something (times, poses), so a blank line between rows is refused.
-    TextFile(const std::filesystem::path& path, bool counted);
+    /// separator: 0: blanks; a character: one field between any two of them, empty ones too, without blanks around.
+    TextFile(const std::filesystem::path& path, bool counted, char separator = '\0');
     [[nodiscard]] const std::vector<TextRow>& rows() const { return rows_; }
 
     TextFile(const TextFile&) = delete;

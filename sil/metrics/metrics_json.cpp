@@ -8,15 +8,17 @@ namespace semtrack::sil {
 
 namespace {
 
+std::string number_or_null(const std::optional<double>& value) {
+    return value && std::isfinite(*value) ? number_text(*value) : "null";
+}
+
 /// Members of one object. Keys are the program's own names: nothing in them needs escaping.
 class JsonObject {
 public:
     explicit JsonObject(int depth) : indent_(static_cast<std::size_t>(2 * depth), ' ') {}
 
     void add(const char* key, std::int64_t value) { member(key, std::to_string(value)); }
-    void add(const char* key, const std::optional<double>& value) {
-        member(key, value && std::isfinite(*value) ? number_text(*value) : "null");
-    }
+    void add(const char* key, const std::optional<double>& value) { member(key, number_or_null(value)); }
     void member(const std::string& key, const std::string& value) {
         text_ += text_.empty() ? "" : ",\n";
         text_ += indent_ + "\"" + key + "\": " + value;
@@ -56,6 +58,92 @@ void add_objects(JsonObject& json, const ObjectErrors& e) {
     json.add("moving_car_speed_median_mps", e.speed_median_mps);
     json.add("parked_car_speed_median_mps", e.parked_speed_median_mps);
     json.add("parked_car_speed_p95_mps", e.parked_speed_p95_mps);
+    json.add("moving_car_steps", std::int64_t{e.motion_steps});
+    json.add("moving_car_motion_trans_mean_m", e.motion_trans_mean_m);
+    json.add("moving_car_motion_rot_mean_deg", e.motion_rot_mean_deg);
+}
+
+std::string tracking_text(const TrackingScores& s) {
+    JsonObject json(2);
+    json.add("labels", s.labels);
+    json.add("hits", s.hits);
+    json.add("misses", s.misses);
+    json.add("false_alarms", s.false_alarms);
+    json.add("id_switches", s.id_switches);
+    json.add("fragmentations", s.fragmentations);
+    json.add("mota", s.mota);
+    json.add("motp", s.motp);
+    json.add("hota", s.hota);
+    json.add("deta", s.deta);
+    json.add("assa", s.assa);
+    return json.text();
+}
+
+std::string curve_text(const PrecisionCurve& curve) {
+    JsonObject json(5);
+    json.add("ap11", curve.ap11());
+    json.add("ap40", curve.ap40());
+    json.add("labels", curve.labels);
+    json.add("hits", curve.hits());
+    json.add("false_alarms", curve.false_alarms());
+    return json.text();
+}
+
+std::string precision_text(const AveragePrecision& precision) {
+    JsonObject all(2);
+    for (std::size_t r = 0; r < kRuleSets.size(); ++r) {
+        JsonObject rules(3);
+        for (std::size_t o = 0; o < kOverlapNames.size(); ++o) {
+            for (std::size_t t = 0; t < kOverlapThresholds.size(); ++t) {
+                JsonObject difficulties(4);
+                for (std::size_t d = 0; d < kDifficulties; ++d) {
+                    difficulties.member(kDifficultyNames[d], curve_text(precision.curve(r, o, t, d)));
+                }
+                rules.member(std::string(kOverlapNames[o]) + "_" + kThresholdNames[t], difficulties.text());
+            }
+        }
+        all.member(kRuleSets[r].name, rules.text());
+    }
+    return all.text();
+}
+
+std::string position_text(const PositionEvaluation& position) {
+    JsonObject all(2);
+    for (std::size_t d = 0; d < kDifficulties; ++d) {
+        const PositionCurve curve = position.curve(d);
+        JsonObject json(3);
+        json.add("labels", curve.labels);
+        json.add("error_percent", curve.points[0].error_percent);
+        std::string rates;
+        std::string errors;
+        for (const PositionCurve::Point& p : curve.points) {
+            rates += (rates.empty() ? "" : ", ") + number_or_null(p.rate);
+            errors += (errors.empty() ? "" : ", ") + number_or_null(p.error_percent);
+        }
+        json.member("rate_by_overlap", "[" + rates + "]");
+        json.member("error_percent_by_overlap", "[" + errors + "]");
+        all.member(kDifficultyNames[d], json.text());
+    }
+    return all.text();
+}
+
+std::string consistency_text(const Consistency& c) {
+    JsonObject all(2);
+    const auto add = [&all](const char* name, const ConsistencyScore& s) {
+        JsonObject json(3);
+        json.add("count", s.count);
+        json.add("mean", s.mean);
+        json.add("median", s.median);
+        json.add("inside_95", s.inside_95);
+        all.member(name, json.text());
+    };
+    add("nees_position", c.position);
+    add("nees_heading", c.heading);
+    add("nees_speed", c.speed);
+    add("nees_ego_speed", c.ego_speed);
+    add("nees_ego_yaw_rate", c.ego_yaw_rate);
+    add("nis_box", c.box_nis);
+    return all.text();
 }
 
 }  // namespace
@@ -71,6 +159,10 @@ std::string to_json(const Metrics& metrics) {
     json.add("object_rows", std::int64_t{c.object_rows});
     add_ego(json, metrics.ego.value_or(TrajectoryErrors{}));
     add_objects(json, metrics.objects.value_or(ObjectErrors{}));
+    json.member("tracking", metrics.object_scores ? tracking_text(metrics.object_scores->tracking.scores()) : "null");
+    json.member("average_precision", metrics.object_scores ? precision_text(metrics.object_scores->precision) : "null");
+    json.member("position_error", metrics.object_scores ? position_text(metrics.object_scores->position) : "null");
+    json.member("consistency", metrics.consistency ? consistency_text(*metrics.consistency) : "null");
     if (!metrics.run.empty()) {
         JsonObject run(2);
         for (const auto& [name, value] : metrics.run) {

@@ -9,7 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "sil/metrics/consistency.hpp"
 #include "sil/metrics/object_errors.hpp"
+#include "sil/metrics/object_scores.hpp"
 #include "sil/metrics/trajectory.hpp"
 
 namespace semtrack::sil {
@@ -29,9 +31,11 @@ using RunCounts = std::vector<std::pair<std::string, std::int64_t>>;
 
 struct Metrics {
     ResultCounts counts{};
-    std::optional<TrajectoryErrors> ego{};  ///< empty: no truth
-    std::optional<ObjectErrors> objects{};  ///< empty: no labels
-    RunCounts run{};                        ///< empty: not known
+    std::optional<TrajectoryErrors> ego{};        ///< empty: no truth
+    std::optional<ObjectErrors> objects{};        ///< empty: no labels
+    std::optional<ObjectScores> object_scores{};  ///< empty: no labels
+    std::optional<Consistency> consistency{};     ///< empty: no standard deviations in the folder
+    RunCounts run{};                              ///< empty: not known
 };
 
 [[nodiscard]] std::string to_json(const Metrics& metrics);

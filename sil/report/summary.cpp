@@ -8,7 +8,7 @@ namespace semtrack::sil {
 
 namespace {
 
-constexpr std::size_t kLabelWidth = 14;
+constexpr std::size_t kLabelWidth = 15;
 
 void line(std::string& text, std::string label, const std::string& value) {
     label.resize(kLabelWidth, ' ');
@@ -60,12 +60,39 @@ void add_object_errors(std::string& text, const ObjectErrors& e) {
     }
 }
 
+std::string percent(const std::optional<double>& value) {
+    return value ? fixed_text(*value, 1) : std::string("-");
+}
+
+void add_object_scores(std::string& text, const ObjectScores& scores) {
+    const TrackingScores t = scores.tracking.scores();
+    if (t.hota && t.mota) {
+        line(text, "tracking",
+             "HOTA " + fixed_text(100.0 * *t.hota, 1) + ", MOTA " + fixed_text(100.0 * *t.mota, 1) + ", " +
+                 std::to_string(t.id_switches) + " id switches, " + std::to_string(t.fragmentations) +
+                 " fragmentations");
+    }
+    for (std::size_t o = 0; o < kOverlapNames.size(); ++o) {
+        std::string row;
+        for (std::size_t k = 0; k < 2; ++k) {  // overlaps 0.25 and 0.5, the paper's
+            row += (k == 0 ? "" : ", ") + fixed_text(kOverlapThresholds[k], 2) + ": ";
+            for (std::size_t d = 0; d < kDifficulties; ++d) {
+                row += (d == 0 ? "" : "/") + percent(scores.precision.curve(0, o, k, d).ap40());
+            }
+        }
+        line(text, std::string("AP40 ") + kOverlapNames[o], row + " (easy/moderate/hard, KITTI's rules)");
+    }
+}
+
 }  // namespace
 
 std::string errors_text(const Metrics& metrics) {
     std::string text;
     add_ego_errors(text, metrics.ego.value_or(TrajectoryErrors{}));
     add_object_errors(text, metrics.objects.value_or(ObjectErrors{}));
+    if (metrics.object_scores) {
+        add_object_scores(text, *metrics.object_scores);
+    }
     return text.empty() ? "no truth to compare with\n" : text;
 }
 

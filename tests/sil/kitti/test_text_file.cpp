@@ -96,5 +96,17 @@ TEST_F(TextFiles, TheLocaleDoesNotMatter) {
     (void)std::setlocale(LC_ALL, saved.c_str());
 }
 
+TEST_F(TextFiles, FieldsBetweenSeparatorsMayBeEmpty) {
+    const auto path = write("a.csv", "frame, x ,y\r\n1,,2.5\n3,4,\n");
+    const TextFile file(path, false, ',');
+    ASSERT_EQ(file.rows().size(), 3U);
+    EXPECT_EQ(file.rows()[0].words[1], "x");
+    ASSERT_EQ(file.rows()[1].words.size(), 3U);
+    EXPECT_EQ(file.rows()[1].words[1], "");
+    EXPECT_EQ(file.number(file.rows()[1], 2), 2.5);
+    ASSERT_EQ(file.rows()[2].words.size(), 3U);
+    EXPECT_EQ(file.rows()[2].words[2], "");
+}
+
 }  // namespace
 }  // namespace semtrack::sil

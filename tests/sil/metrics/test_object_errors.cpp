@@ -150,10 +150,10 @@ ObjectTruthSet drive(int frames) {
 }
 
 TEST(ObjectErrors, TheTruthsSpeedComesFromTheLabelsInTheWorld) {
-    const std::vector<std::optional<double>> speeds = truth_speeds(drive(15));
+    const std::vector<std::optional<TruthMotion>> speeds = truth_motions(drive(15));
     EXPECT_FALSE(speeds[0].has_value());
-    EXPECT_NEAR(*speeds[2], 10.0, 1e-9);
-    EXPECT_NEAR(*speeds[3], 0.0, 1e-9);
+    EXPECT_NEAR(speeds[2]->speed, 10.0, 1e-9);
+    EXPECT_NEAR(speeds[3]->speed, 0.0, 1e-9);
     EXPECT_FALSE(speeds[28].has_value());
 }
 
@@ -162,7 +162,7 @@ TEST(ObjectErrors, ACarComingTowardsUsBackwardsIsReversing) {
     for (ObjectRow& label : t.labels) {
         label.rotation_y = 0.5 * kPi;
     }
-    EXPECT_NEAR(*truth_speeds(t)[2], -10.0, 1e-9);
+    EXPECT_NEAR(truth_motions(t)[2]->speed, -10.0, 1e-9);
 }
 
 TEST(ObjectErrors, SpeedsOfMovingAndParkedCarsAreJudgedApart) {

@@ -1,6 +1,8 @@
 #include "sil/options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -107,6 +109,33 @@ void parse_image_size(const std::string& text, DriveOptions& drive) {
     }
 }
 
+void add_run(CLI::App& app, RunOptions& o, bool& no_progress) {
+    app.add_option("--scenarios", o.scenarios, "scenario file (JSON)")->required();
+    app.add_option("--out", o.out, "folder for the results")->required();
+    app.add_option("--baseline", o.baseline, "folder of baselines to compare with");
+    app.add_option("--junit", o.junit, "JUnit file (default: OUT/junit.xml)");
+    app.add_option("--jobs", o.jobs, "replays at a time")->check(CLI::Range(1, 64));
+    app.add_flag("--update-baseline", o.update_baseline, "write the baselines instead of comparing")
+        ->needs("--baseline");
+    app.add_flag("--no-progress", no_progress);
+}
+
+void add_convert(CLI::App& app, ConvertCommand& o, bool& no_viewpoint) {
+    app.add_option("--format", o.convert.format, "what the input is")
+        ->required()
+        ->check(CLI::IsMember({"kitti", "rrc", "pointrcnn", "coco"}));
+    app.add_option("--in", o.convert.in, "file (kitti: also a folder of one file a frame)")->required();
+    app.add_option("--labels", o.convert.labels, "KITTI tracking labels, for viewpoints by overlap");
+    app.add_option("--labels-viewpoints", o.convert.labels_viewpoints, "viewpoints of these labels")->needs("--labels");
+    app.add_flag("--no-viewpoint", no_viewpoint, "leave viewpoints out");
+    app.add_option("--class", o.convert.object_class, "of rows without one (Car)");
+    app.add_option("--least-score", o.convert.least_score, "rows below are left out");
+    app.add_option("--focal", o.convert.focal_px, "px, for results without a 3D place");
+    app.add_option("--first", o.convert.first, "first frame that the detector saw (0)");
+    app.add_option("--last", o.convert.last, "last one (the last row's)");
+    app.add_option("--out", o.out, "detection file to write")->required();
+}
+
 /// What the contract knows and this program does not have.
 void refuse_what_is_not_built(const Words& w) {
     if (w.features == "simulated") {
@@ -174,22 +203,34 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     CLI::App* const evaluate = app.add_subcommand("evaluate", "compare a results folder with the truth");
     add_drive(*evaluate, line.evaluate.drive);
     evaluate->add_option("--results", line.evaluate.results)->required();
+    CLI::App* const run = app.add_subcommand("run", "run a file of scenarios against bounds and baselines");
+    bool no_progress = false;
+    add_run(*run, line.run, no_progress);
+    CLI::App* const convert = app.add_subcommand("convert-detections", "make the detection format from other ones");
+    bool no_viewpoint = false;
+    add_convert(*convert, line.convert, no_viewpoint);
+    const std::array<std::pair<CLI::App*, Command>, 5> commands{{{replay, Command::kReplay},
+                                                                 {render, Command::kRender},
+                                                                 {evaluate, Command::kEvaluate},
+                                                                 {run, Command::kRun},
+                                                                 {convert, Command::kConvert}}};
+    const auto parsed = [&] {
+        return std::find_if(commands.begin(), commands.end(), [](const auto& c) { return c.first->parsed(); });
+    };
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
-        const CLI::App* const asked = replay->parsed()     ? replay
-                                      : render->parsed()   ? render
-                                      : evaluate->parsed() ? evaluate
-                                                           : &app;
-        line.help = asked->help();
+        line.help = parsed() == commands.end() ? app.help() : parsed()->first->help();
         return line;
     } catch (const CLI::ParseError& error) {
         throw InputError(error.what());
     }
-    line.command = replay->parsed() ? Command::kReplay : render->parsed() ? Command::kRender : Command::kEvaluate;
+    line.command = parsed()->second;
     if (line.command == Command::kReplay) {
         finish_replay(words, line.replay);
     }
+    line.run.progress = !no_progress;
+    line.convert.convert.viewpoints = !no_viewpoint;
     return line;
 }
 

@@ -8,6 +8,7 @@
 
 #include "semtrack/can_encoder.hpp"
 #include "semtrack/config.hpp"
+#include "sil/kitti/convert_detections.hpp"
 
 namespace semtrack::sil {
 
@@ -53,7 +54,22 @@ struct EvaluateOptions {
     std::filesystem::path results;
 };
 
-enum class Command { kHelp, kReplay, kRender, kEvaluate };
+struct RunOptions {
+    std::filesystem::path scenarios;
+    std::filesystem::path out;
+    std::filesystem::path baseline;  ///< empty: none
+    std::filesystem::path junit;     ///< empty: OUT/junit.xml
+    bool update_baseline{false};
+    int jobs{2};
+    bool progress{true};
+};
+
+struct ConvertCommand {
+    ConvertOptions convert;
+    std::filesystem::path out;
+};
+
+enum class Command { kHelp, kReplay, kRender, kEvaluate, kRun, kConvert };
 
 struct CommandLine {
     Command command{Command::kHelp};
@@ -61,6 +77,8 @@ struct CommandLine {
     ReplayOptions replay;
     RenderOptions render;
     EvaluateOptions evaluate;
+    RunOptions run;
+    ConvertCommand convert;
 };
 
 /// Throws InputError for bad usage, also for what this build does not have.

@@ -23,7 +23,7 @@ double normal(Rng& rng) {
 double miss_rate(const DetectorErrors& e, double height_px, double visible_share) {
     double rate = e.miss;
     if (height_px < kSurePx) {
-        rate += 0.25 * (kSurePx - height_px) / (kSurePx - kMinDetectedHeight_px);
+        rate += 0.25 * (kSurePx - height_px) / (kSurePx - e.least_height_px);
     }
     if (visible_share < 0.6) {
         rate += 0.4 * (0.6 - visible_share);
@@ -90,7 +90,7 @@ std::vector<Detection> detect(const Scene& scene, const Calibration& calibration
     for (std::size_t k = 0; k < silhouettes.size(); ++k) {
         const Silhouette& s = silhouettes[k];
         if (s.visible_samples == 0 || s.visible_share() < kMinDetectedShare ||
-            s.visible.bottom - s.visible.top < kMinDetectedHeight_px) {
+            s.visible.bottom - s.visible.top < scenario.detector.least_height_px) {
             continue;
         }
         const Label label = make_label(scene, calibration, k, frame, s);
@@ -116,6 +116,11 @@ std::vector<Detection> detect(const Scene& scene, const Calibration& calibration
         Detection d;
         if (rng.uniform() < scenario.detector.false_positives && false_positive(calibration, rng, d)) {
             out.push_back(d);
+        }
+    }
+    if (!scenario.detector.viewpoints) {
+        for (Detection& d : out) {
+            d.viewpoint = Viewpoint{};
         }
     }
     return out;

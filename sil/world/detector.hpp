@@ -9,7 +9,6 @@
 
 namespace semtrack::sil::world {
 
-inline constexpr double kMinDetectedHeight_px = 20.0;
 inline constexpr double kMinDetectedShare = 0.2;
 
 enum class DetectorMode { kRealistic, kIdeal };

@@ -353,7 +353,9 @@ void Renderer::render(int frame, GreyImage& left, GreyImage& right, int threads)
     const std::uint32_t seed = hash(scene_.scenario().seed, static_cast<std::uint32_t>(frame));
     render_view(scene_, now, left_view(calibration_, now.T_n_c, imaging.samples),
                 {gain, 0.0, imaging.noise_sigma, hash(seed, 0U)}, threads, left);
-    render_view(scene_, now, right_view(calibration_, now.T_n_c, imaging.samples),
+    Calibration right_camera = calibration_;
+    right_camera.row_offset.constant += imaging.row_error_px;
+    render_view(scene_, now, right_view(right_camera, now.T_n_c, imaging.samples),
                 {gain * imaging.right_gain, imaging.right_offset, imaging.noise_sigma, hash(seed, 1U)}, threads, right);
     if (frame >= imaging.blind_right_from && frame <= imaging.blind_right_to) {
         for (std::uint8_t& p : right.pixels) {

@@ -16,10 +16,31 @@ struct Entry {
     Scenario (*make)();
 };
 
-constexpr std::array<Entry, 3> kScenarios{{
+constexpr std::array<Entry, 24> kScenarios{{
     {"street", make_street_scenario},
     {"empty", make_empty_scenario},
     {"traffic", make_traffic_scenario},
+    {"follow", make_follow_scenario},
+    {"crossing", make_crossing_scenario},
+    {"cut_in", make_cut_in_scenario},
+    {"beside", make_beside_scenario},
+    {"turning", make_turning_scenario},
+    {"reversing", make_reversing_scenario},
+    {"pedestrians", make_pedestrians_scenario},
+    {"far", make_far_scenario},
+    {"occlusion", make_occlusion_scenario},
+    {"standing", make_standing_scenario},
+    {"braking", make_braking_scenario},
+    {"hill", make_hill_scenario},
+    {"night", make_night_scenario},
+    {"exposure", make_exposure_scenario},
+    {"dropped", make_dropped_scenario},
+    {"blind_right", make_blind_right_scenario},
+    {"misaligned", make_misaligned_scenario},
+    {"detector_5hz", make_detector_5hz_scenario},
+    {"detector_misses", make_detector_misses_scenario},
+    {"no_viewpoint", make_no_viewpoint_scenario},
+    {"short_street", make_short_street_scenario},
 }};
 
 // Spread of KITTI's cars: 0.12, 0.09, 0.4 m about the class mean.

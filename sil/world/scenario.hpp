@@ -87,8 +87,9 @@ struct Imaging {
     std::vector<int> dropped{};  ///< frames without images
     int blind_right_from{-1};    ///< frames [from, to] with a black right image
     int blind_right_to{-1};
-    RowOffset row_offset{};  ///< rendered exactly and stated in the calibration
-    int samples{4};          ///< a pixel: 4 or 8
+    RowOffset row_offset{};    ///< rendered exactly and stated in the calibration
+    double row_error_px{0.0};  ///< the right image lies so much lower than the calibration says
+    int samples{4};            ///< a pixel: 4 or 8
 };
 
 struct DetectorErrors {
@@ -98,6 +99,8 @@ struct DetectorErrors {
     double viewpoint_wrong{0.04};
     double false_positives{0.03};  ///< per frame
     int every{1};                  ///< a list on every n-th frame only
+    bool viewpoints{true};         ///< false: the detector gives none
+    double least_height_px{20.0};  ///< lower objects are not detected
 };
 
 struct Scenario {

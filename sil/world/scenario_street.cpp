@@ -3,9 +3,7 @@
 
 namespace semtrack::sil::world {
 
-namespace {
-
-Motion motion(double x, double z, double heading, double speed, std::vector<Phase> phases = {}) {
+Motion make_motion(double x, double z, double heading, double speed, std::vector<Phase> phases) {
     Motion m;
     m.x = x;
     m.z = z;
@@ -15,29 +13,27 @@ Motion motion(double x, double z, double heading, double speed, std::vector<Phas
     return m;
 }
 
-// Lane change to the left by two arcs of equal angle and duration; `radius` of the first, `speed` at its start.
-std::vector<Phase> swing_left(double wait_s, double speed, double arc_s, double radius, double acceleration) {
+std::vector<Phase> change_lane(double wait_s, double speed, double arc_s, double radius, double acceleration) {
     const double first = (speed + 0.5 * acceleration * arc_s) * arc_s;
     const double second = first + acceleration * arc_s * arc_s;
     return {{wait_s, 0.0, 0.0}, {arc_s, acceleration, -1.0 / radius}, {arc_s, acceleration, first / (second * radius)}};
 }
-
-}  // namespace
 
 Scenario make_street_scenario() {
     Scenario s = make_empty_scenario();
     s.detector = DetectorErrors{};
     const double left_lane = -s.street.lane_width;
     // 1 drives ahead, brakes and turns off to the right; 2 comes towards us; 3 overtakes.
-    s.users.push_back(make_user(1, ObjectClass::kCar,
-                                motion(0.1, 15.0, 0.0, 8.0, {{1.6, 0.0, 0.0}, {1.6, -2.2, 0.0}, {2.5, 0.0, 1.0 / 7.2}}),
-                                101U));
-    s.users.push_back(make_user(2, ObjectClass::kCar, motion(left_lane + 0.2, 38.0, kPi, 9.5), 102U));
     s.users.push_back(
-        make_user(3, ObjectClass::kCar, motion(0.0, -8.0, 0.0, 7.5, swing_left(2.0, 7.5, 1.1, 26.0, 1.5)), 113U));
-    s.users.push_back(make_user(4, ObjectClass::kPedestrian, motion(kerb_right(s.street) + 1.2, 16.0, kPi, 1.3), 104U));
-    s.users.push_back(make_user(5, ObjectClass::kPedestrian, motion(5.6, 56.0, -0.5 * kPi, 1.3), 105U));
-    s.users.push_back(make_user(6, ObjectClass::kCyclist, motion(left_lane - 1.1, 30.0, kPi, 4.2), 106U));
+        make_user(1, ObjectClass::kCar,
+                  make_motion(0.1, 15.0, 0.0, 8.0, {{1.6, 0.0, 0.0}, {1.6, -2.2, 0.0}, {2.5, 0.0, 1.0 / 7.2}}), 101U));
+    s.users.push_back(make_user(2, ObjectClass::kCar, make_motion(left_lane + 0.2, 38.0, kPi, 9.5), 102U));
+    s.users.push_back(
+        make_user(3, ObjectClass::kCar, make_motion(0.0, -8.0, 0.0, 7.5, change_lane(2.0, 7.5, 1.1, 26.0, 1.5)), 113U));
+    s.users.push_back(
+        make_user(4, ObjectClass::kPedestrian, make_motion(kerb_right(s.street) + 1.2, 16.0, kPi, 1.3), 104U));
+    s.users.push_back(make_user(5, ObjectClass::kPedestrian, make_motion(5.6, 56.0, -0.5 * kPi, 1.3), 105U));
+    s.users.push_back(make_user(6, ObjectClass::kCyclist, make_motion(left_lane - 1.1, 30.0, kPi, 4.2), 106U));
     add_parked_cars(s.street, -2.0, 110.0, 5U, 10, s);
     s.imaging.exposure = {{40, 0.86}, {41, 0.9}, {44, 0.94}};
     return s;
@@ -51,24 +47,9 @@ Scenario make_empty_scenario() {
     s.street.gaps_right = {{38.0, 50.0}};
     s.street.gaps_left = {{70.0, 80.0}};
     s.ego.motion =
-        motion(0.0, 0.0, 0.0, 7.5, {{1.5, 0.2, 0.0}, {1.5, -1.6, 0.0}, {1.0, 0.0, 0.012}, {1.0, 0.4, -0.012}});
+        make_motion(0.0, 0.0, 0.0, 7.5, {{1.5, 0.2, 0.0}, {1.5, -1.6, 0.0}, {1.0, 0.0, 0.012}, {1.0, 0.4, -0.012}});
     s.imaging.right_offset = -5.0;
     s.detector.false_positives = 0.0;
-    return s;
-}
-
-Scenario make_traffic_scenario() {
-    Scenario s = make_empty_scenario();
-    s.detector = DetectorErrors{};
-    s.ego.motion = motion(0.0, 0.0, 0.0, 6.0);
-    const double left = -s.street.lane_width;
-    s.users.push_back(make_user(1, ObjectClass::kTruck, motion(0.0, 12.0, 0.0, 6.2), 201U));
-    s.users.push_back(make_user(2, ObjectClass::kVan, motion(left + 0.3, 6.5, 0.0, 6.6), 202U));
-    s.users.push_back(make_user(3, ObjectClass::kCar, motion(left + 0.2, 13.5, 0.0, 6.5), 203U));
-    s.users.push_back(make_user(4, ObjectClass::kTruck, motion(3.3, 11.5, 0.0, 5.6, {{2.0, 0.2, 0.0}}), 204U));
-    s.users.push_back(make_user(5, ObjectClass::kCar, motion(left, 22.0, 0.0, 6.8), 205U));
-    s.users.push_back(make_user(6, ObjectClass::kCar, motion(0.1, 24.0, 0.0, 6.4), 206U));
-    s.street.parking_right = 3.4;
     return s;
 }
 

@@ -58,6 +58,8 @@ void add_replay(CLI::App& app, ReplayOptions& o, Words& w) {
     app.add_option("--mount", o.mount, "file with T_v_c, 12 values");
     app.add_option("--camera-height", w.camera_height_m, "camera above the road, m");
     app.add_option("--features", w.features)->check(CLI::IsMember({"images", "simulated"}));
+    app.add_option("--feature-noise", o.feature_noise_px, "px, of simulated features (0.5)")
+        ->check(CLI::Range(0.01, 10.0));
     app.add_option("--can-dialect", w.can_dialect)->check(CLI::IsMember({"fd", "classic"}));
     app.add_option("--can", w.can_interface, "SocketCAN interface to send on");
     app.add_flag("--realtime", o.realtime, "at the drive's own pace");
@@ -138,9 +140,6 @@ void add_convert(CLI::App& app, ConvertCommand& o, bool& no_viewpoint) {
 
 /// What the contract knows and this program does not have.
 void refuse_what_is_not_built(const Words& w) {
-    if (w.features == "simulated") {
-        throw InputError("--features simulated: not available yet");
-    }
     if (!w.can_interface.empty()) {
         throw InputError("--can " + w.can_interface + ": not available yet");
     }
@@ -167,7 +166,11 @@ void finish_replay(const Words& w, ReplayOptions& o) {
     if (o.first && o.last && *o.first > *o.last) {
         throw InputError("--first " + std::to_string(*o.first) + " is greater than --last " + std::to_string(*o.last));
     }
-    o.config.cues = parse_cues(w, o.drive.images);
+    o.simulated_features = w.features == "simulated";
+    if (o.simulated_features && (o.drive.images || o.drive.ego.empty())) {
+        throw InputError("--features simulated: needs --images none and --ego FILE");
+    }
+    o.config.cues = parse_cues(w, o.drive.images || o.simulated_features);
     o.config.camera_height_m = w.camera_height_m;
     o.config.matcher = w.matcher == "orb" ? MatcherKind::kOrb : MatcherKind::kPatch;
     o.opencv_extractor = w.extractor == "opencv";

@@ -32,6 +32,8 @@ struct ReplayOptions {
     std::string detections{"none"};  ///< none, labels or a file
     int detection_delay{0};
     bool opencv_extractor{false};
+    bool simulated_features{false};
+    double feature_noise_px{0.5};  ///< of simulated features
     Config config{};
     std::filesystem::path mount;
     CanDialect dialect{CanDialect::kFd};

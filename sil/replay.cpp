@@ -18,6 +18,7 @@
 #include "sil/report/summary.hpp"
 #include "sil/report/writers.hpp"
 #include "sil/result_folder.hpp"
+#include "sil/simulate/feature_simulator.hpp"
 #include "sil/sources.hpp"
 
 namespace semtrack::sil {
@@ -107,6 +108,10 @@ public:
             ego_.emplace(*drive.sequence, read_given_poses(options.drive), drive.cameras.calibration.T_v_c,
                          drive.range.first, drive.range.last, options.drive.ego.string());
         }
+        if (options.simulated_features) {
+            simulator_.emplace(*drive.sequence, read_given_poses(options.drive), drive.range.first, drive.range.last,
+                               options.feature_noise_px);
+        }
         if (options.pictures) {
             pictures_.emplace(dir, drive.cameras.calibration, *drive.sequence);
         }
@@ -125,6 +130,7 @@ public:
         ports.stereo = &stereo_;
         ports.detections = options.detections == "none" ? nullptr : &detections_;
         ports.ego = ego_ ? &*ego_ : nullptr;
+        ports.features = simulator_ ? &*simulator_ : nullptr;
         ports.can = &can_log_;
         ports.observer = &timer_;
         CanConfig can;
@@ -204,6 +210,7 @@ private:
     SequenceStereoSource stereo_;
     DelayedDetectionSource detections_;
     std::optional<GivenPoseSource> ego_;
+    std::optional<FeatureSimulator> simulator_;
     std::optional<PictureWriter> pictures_;
 #ifdef SEMTRACK_HAS_OPENCV
     std::optional<OpenCvExtractor> extractor_;

@@ -19,6 +19,7 @@ struct CyclePorts {
     DetectionSource* detections{nullptr};
     VehicleMotionSource* motion{nullptr};
     EgoPoseSource* ego{nullptr};
+    FeatureSource* features{nullptr};
     CanTx* can{nullptr};
     Clock* clock{nullptr};  ///< null: frames are stamped as sent at the image's time
     StageObserver* observer{nullptr};
@@ -54,6 +55,7 @@ private:
     CanEncoder encoder_{};
     CanList frames_{};
     StaticVector<DetectionList, kMaxDetectionLists> lists_{};
+    ExternalFeatures features_{};
     CycleCounters counters_{};
 };
 

@@ -62,6 +62,18 @@ struct VehicleMotion {
     double sigma_yaw_rate{0.01};
 };
 
+/// A feature from outside the core (a hardware front end that tracks corners, a simulation), px of the processed pair.
+/// Not finite, or outside the left image: left out.
+struct ExternalFeature {
+    std::uint32_t id{0};  ///< the same while it is tracked from frame to frame
+    bool stereo{false};   ///< u_right is measured
+    float u{0};
+    float v{0};
+    float u_right{0};
+    float sigma_px{0.5F};  ///< of each coordinate; positive
+};
+using ExternalFeatures = StaticVector<ExternalFeature, kMaxFeatures>;
+
 /// One cycle. Pointers may be null (not there) and need to live for the call only.
 struct Input {
     std::int64_t time_us{0};                             ///< of the images; later than the last cycle's
@@ -69,6 +81,7 @@ struct Input {
     ImageView right{};                                   ///< may be empty
     const StaticVector<DetectionList, kMaxDetectionLists>* detections{nullptr};
     const VehicleMotion* motion{nullptr};
+    const ExternalFeatures* features{nullptr};           ///< in place of the images' own features
     const RigidTransform* T_w_v{nullptr};                ///< ego pose known from outside: taken as it is
 };
 

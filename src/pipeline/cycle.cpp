@@ -54,6 +54,8 @@ CycleResult Cycle::step(Tracker& tracker, Output& output) noexcept {
     input.detections = poll(ports_.detections, frame.time_us, lists_, failed) ? &lists_ : nullptr;
     input.motion = poll(ports_.motion, frame.time_us, motion, failed) ? &motion : nullptr;
     input.T_w_v = poll(ports_.ego, frame.time_us, T_w_v, failed) ? &T_w_v : nullptr;
+    features_.clear();
+    input.features = poll(ports_.features, frame.time_us, features_, failed) ? &features_ : nullptr;
     if (failed) {
         return CycleResult::kSourceError;
     }

@@ -61,6 +61,7 @@ Status TrackerCore::init(const Config& config, const Calibration& calibration, F
     tracks_.reset();
     patch_.reset();
     orb_.reset();
+    external_.reset();
     orb_.set_extractor(extractor != nullptr ? extractor : &native_extractor_);
     health_ = Health{};
     ready_ = true;

@@ -11,6 +11,7 @@
 #include "front/box/infer_box.hpp"
 #include "front/feature/orb_extractor.hpp"
 #include "front/mask/owner_mask_builder.hpp"
+#include "front/match/external_features.hpp"
 #include "front/match/orb_matcher.hpp"
 #include "front/match/patch_matcher.hpp"
 #include "front/ransac/reject.hpp"
@@ -82,7 +83,8 @@ private:
     StageObserver* observer_{nullptr};
     bool ready_{false};
     bool started_{false};
-    bool features_usable_{false};        // an image of this frame went through the matcher
+    bool features_usable_{false};        // this frame's image, or its features from outside, were matched
+    bool features_given_{false};         // from outside
     std::uint32_t frame_{0};             // number of the current frame, from 1
     std::uint32_t last_image_frame_{0};  // the matcher's last frame
     std::int64_t time_us_{0};
@@ -98,6 +100,7 @@ private:
     PatchMatcher patch_{};
     OrbExtractor native_extractor_{};
     OrbMatcher orb_{};  // in place of patch_ when the configuration says so
+    ExternalMatcher external_{};  // in place of both while Input::features comes
     OwnerMaskBuilder mask_builder_{};
     OwnerMask mask_left_{};
     OwnerMask mask_right_{};

@@ -112,6 +112,15 @@ void TrackerCore::set_priors() {
 void TrackerCore::match(const Input& input) {
     features_.clear();
     features_usable_ = false;
+    features_given_ = input.features != nullptr;
+    if (features_given_) {
+        begin(Stage::kMatch);
+        external_.process(*input.features, mask_left_, priors_, features_);
+        end(Stage::kMatch);
+        features_usable_ = true;
+        last_image_frame_ = frame_;
+        return;
+    }
     if (input.left.empty()) {
         return;
     }
@@ -135,7 +144,9 @@ void TrackerCore::match(const Input& input) {
 }
 
 void TrackerCore::drop_feature(int owner, int slot) {
-    if (config_.matcher == MatcherKind::kOrb) {
+    if (features_given_) {
+        external_.reject(owner, slot);
+    } else if (config_.matcher == MatcherKind::kOrb) {
         orb_.reject(owner, slot);
     } else {
         patch_.reject(owner, slot);

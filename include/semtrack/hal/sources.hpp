@@ -60,6 +60,16 @@ protected:
     ~EgoPoseSource() = default;
 };
 
+/// Features from outside: masks, rejection and both estimators work on them as on the images' own.
+class FeatureSource {
+public:
+    /// Those of the frame at time_us, in any order.
+    [[nodiscard]] virtual SourceResult poll(std::int64_t time_us, ExternalFeatures& features) noexcept = 0;
+
+protected:
+    ~FeatureSource() = default;
+};
+
 }  // namespace semtrack
 
 #endif

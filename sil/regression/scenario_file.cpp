@@ -36,7 +36,9 @@ public:
             require_keys(json_, {"about", "defaults", "cases", "table"}, "file");
             defaults_ = json_.value("defaults", Json::object());
             for (const Json& c : json_.at("cases")) {
-                add_case(c, out);
+                for (const Json& one : expanded(c)) {
+                    add_case(one, out);
+                }
             }
             if (json_.contains("table")) {
                 read_table(json_["table"], out.table);
@@ -78,9 +80,32 @@ private:
         return path.is_absolute() ? path : path_.parent_path() / path;
     }
 
-    void add_case(const Json& json, ScenarioFile& out) {
+    /// "each": {"word": ["a", "b"]} makes a case of each value, with "{word}" replaced in all of its texts.
+    [[nodiscard]] std::vector<Json> expanded(const Json& json) const {
         Json merged = defaults_;
         merged.merge_patch(json);
+        if (!merged.contains("each")) {
+            return {merged};
+        }
+        const Json each = merged["each"];
+        merged.erase("each");
+        if (each.size() != 1U) {
+            refuse("each: has one word");
+        }
+        const std::string word = "{" + each.begin().key() + "}";
+        std::vector<Json> out;
+        for (const Json& value : each.begin().value()) {
+            std::string text = merged.dump();
+            const std::string with = value.get<std::string>();
+            for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + with.size())) {
+                text.replace(at, word.size(), with);
+            }
+            out.push_back(Json::parse(text));
+        }
+        return out;
+    }
+
+    void add_case(const Json& merged, ScenarioFile& out) {
         ScenarioCase c;
         c.name = merged.at("name").get<std::string>();
         case_ = c.name;

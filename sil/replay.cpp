@@ -172,6 +172,9 @@ public:
                 {"can_lists", c.lists_sent},
                 {"can_lists_dropped", c.lists_dropped}};
     }
+    [[nodiscard]] FeatureStatistics features() const {
+        return features_.statistics();
+    }
     [[nodiscard]] const std::vector<double>& total_us() const {
         return total_us_;
     }
@@ -195,6 +198,7 @@ private:
                 throw std::runtime_error(where + ": the tracker refused its input");
         }
         writers_.add(stereo_.frame(), *output_, cycle_->encoder().list_counter(), timer_.timing());
+        features_.add(*output_);
         total_us_.push_back(timer_.timing().total_us);
         if (pictures_) {
             pictures_->add(stereo_.frame(), stereo_.left(), *output_);
@@ -219,6 +223,7 @@ private:
     std::unique_ptr<Cycle> cycle_;
     std::unique_ptr<Output> output_;
     std::vector<double> total_us_;
+    FeatureCounter features_;
 };
 
 }  // namespace
@@ -236,6 +241,7 @@ void run_replay(const ReplayOptions& options) {
         run.all_frames();
         metrics = evaluate_results(folder.work(), truth);
         metrics.run = run.counts();
+        metrics.features = run.features();
         total_us = run.total_us();
     }
     write_file(folder.work() / "metrics.json", to_json(metrics));

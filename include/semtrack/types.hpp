@@ -147,6 +147,7 @@ struct TrackedObject {
 struct SparsePoint {
     std::uint8_t owner{0};            ///< 0 background, else slot + 1
     bool has_position{false};
+    std::uint32_t id{0};              ///< the same while it is tracked; never used twice
     float u{0};                       ///< left image, px
     float v{0};
     std::array<float, 3> position_w{};

@@ -58,6 +58,13 @@ void add_objects(JsonObject& json, const ObjectErrors& e) {
     json.add("moving_car_speed_median_mps", e.speed_median_mps);
     json.add("parked_car_speed_median_mps", e.parked_speed_median_mps);
     json.add("parked_car_speed_p95_mps", e.parked_speed_p95_mps);
+    json.add("far_cars", std::int64_t{e.far_cars});
+    json.add("far_car_recall", e.far_recall);
+    json.add("far_car_position_mean_percent", e.far_position_mean_percent);
+    json.add("labelled_pedestrians", std::int64_t{e.labelled_pedestrians});
+    json.add("pedestrian_recall", e.pedestrian_recall);
+    json.add("pedestrian_position_mean_percent", e.pedestrian_position_mean_percent);
+    json.add("pedestrian_speed_median_mps", e.pedestrian_speed_median_mps);
     json.add("moving_car_steps", std::int64_t{e.motion_steps});
     json.add("moving_car_motion_trans_mean_m", e.motion_trans_mean_m);
     json.add("moving_car_motion_rot_mean_deg", e.motion_rot_mean_deg);
@@ -127,6 +134,15 @@ std::string position_text(const PositionEvaluation& position) {
     return all.text();
 }
 
+std::string features_text(const FeatureStatistics& f) {
+    JsonObject json(2);
+    json.add("background_mean", f.per_frame_mean);
+    json.add("stereo_share", f.stereo_share);
+    json.add("track_length_mean", f.track_length_mean);
+    json.add("track_length_median", f.track_length_median);
+    return json.text();
+}
+
 std::string consistency_text(const Consistency& c) {
     JsonObject all(2);
     const auto add = [&all](const char* name, const ConsistencyScore& s) {
@@ -163,6 +179,7 @@ std::string to_json(const Metrics& metrics) {
     json.member("average_precision", metrics.object_scores ? precision_text(metrics.object_scores->precision) : "null");
     json.member("position_error", metrics.object_scores ? position_text(metrics.object_scores->position) : "null");
     json.member("consistency", metrics.consistency ? consistency_text(*metrics.consistency) : "null");
+    json.member("features", metrics.features ? features_text(*metrics.features) : "null");
     if (!metrics.run.empty()) {
         JsonObject run(2);
         for (const auto& [name, value] : metrics.run) {

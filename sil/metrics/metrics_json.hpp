@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sil/metrics/consistency.hpp"
+#include "sil/metrics/feature_statistics.hpp"
 #include "sil/metrics/object_errors.hpp"
 #include "sil/metrics/object_scores.hpp"
 #include "sil/metrics/trajectory.hpp"
@@ -35,6 +36,7 @@ struct Metrics {
     std::optional<ObjectErrors> objects{};        ///< empty: no labels
     std::optional<ObjectScores> object_scores{};  ///< empty: no labels
     std::optional<Consistency> consistency{};     ///< empty: no standard deviations in the folder
+    std::optional<FeatureStatistics> features{};  ///< empty: not a run's own, or no features
     RunCounts run{};                              ///< empty: not known
 };
 

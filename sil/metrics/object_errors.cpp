@@ -14,13 +14,32 @@ namespace {
 constexpr double kLeastHeight_px = 25.0;
 constexpr int kMostOccluded = 2;
 constexpr double kMostTruncated = 0.5;
+constexpr double kFar_m = 50.0;
+constexpr double kLeastFarHeight_px = 10.0;
+constexpr int kMostPartlyOccluded = 1;
 constexpr double kMovingSpeed = 1.0;  // m/s
+constexpr double kWalkingSpeed = 0.5;
 constexpr std::int64_t kMostStep_us = 500000;
 constexpr double kDegrees = 180.0 / kPi;
 
 bool counts(const ObjectRow& label) {
     return label.type == "Car" && box_height(label) >= kLeastHeight_px && label.occluded <= kMostOccluded &&
            label.truncated <= kMostTruncated;
+}
+
+/// Small by distance: judged apart, whatever the height.
+bool counts_far(const ObjectRow& label) {
+    return label.type == "Car" && box_height(label) >= kLeastFarHeight_px && label.occluded <= kMostPartlyOccluded &&
+           label.truncated <= kMostTruncated && label.bottom_c0.norm() >= kFar_m;
+}
+
+bool counts_as_pedestrian(const ObjectRow& label) {
+    return label.type == "Pedestrian" && box_height(label) >= kLeastHeight_px &&
+           label.occluded <= kMostPartlyOccluded && label.truncated <= kMostTruncated;
+}
+
+double distance_percent(const ObjectRow& label, const ObjectRow& result) {
+    return 100.0 * (result.bottom_c0 - label.bottom_c0).norm() / label.bottom_c0.norm();
 }
 
 struct Samples {
@@ -30,6 +49,9 @@ struct Samples {
     std::vector<double> flips;
     std::vector<double> speed;
     std::vector<double> parked;
+    std::vector<double> far_percent;
+    std::vector<double> pedestrian_percent;
+    std::vector<double> pedestrian_speed;
     std::vector<double> motion_m;
     std::vector<double> motion_deg;
 };
@@ -49,6 +71,19 @@ void add_pair(const ObjectRow& label, const ObjectRow& result, const std::option
         s.parked.push_back(std::fabs(result.speed));
     } else if (motion && std::fabs(motion->speed) >= kMovingSpeed) {
         s.speed.push_back(std::fabs(result.speed - motion->speed));
+    }
+}
+
+/// Far cars and pedestrians.
+void add_others(const ObjectRow& label, const ObjectRow& result, const std::optional<TruthMotion>& motion, Samples& s) {
+    if (counts_far(label)) {
+        s.far_percent.push_back(distance_percent(label, result));
+    }
+    if (counts_as_pedestrian(label)) {
+        s.pedestrian_percent.push_back(distance_percent(label, result));
+        if (motion && std::fabs(motion->speed) >= kWalkingSpeed) {
+            s.pedestrian_speed.push_back(std::fabs(result.speed - motion->speed));
+        }
     }
 }
 
@@ -102,6 +137,15 @@ void summarise(const Samples& s, ObjectErrors& out) {
     out.motion_steps = static_cast<int>(s.motion_m.size());
     out.motion_trans_mean_m = mean(s.motion_m);
     out.motion_rot_mean_deg = mean(s.motion_deg);
+    out.far_position_mean_percent = mean(s.far_percent);
+    out.pedestrian_position_mean_percent = mean(s.pedestrian_percent);
+    out.pedestrian_speed_median_mps = median(s.pedestrian_speed);
+    if (out.labelled_pedestrians > 0) {
+        out.pedestrian_recall = static_cast<double>(s.pedestrian_percent.size()) / out.labelled_pedestrians;
+    }
+    if (out.far_cars > 0) {
+        out.far_recall = static_cast<double>(s.far_percent.size()) / out.far_cars;
+    }
     if (out.labelled_cars > 0) {
         out.recall = static_cast<double>(out.matched_cars) / out.labelled_cars;
     }
@@ -133,6 +177,8 @@ ObjectErrors compare_objects(const std::vector<ObjectRow>& results, const std::v
     for (std::size_t f = 0; f < frames.size(); ++f) {
         for (const std::size_t l : frames[f].labels) {
             out.labelled_cars += counts(truth.labels[l]) ? 1 : 0;
+            out.far_cars += counts_far(truth.labels[l]) ? 1 : 0;
+            out.labelled_pedestrians += counts_as_pedestrian(truth.labels[l]) ? 1 : 0;
         }
         for (const RowMatch& m : matches[f]) {
             const ObjectRow& label = truth.labels[m.label];
@@ -140,6 +186,7 @@ ObjectErrors compare_objects(const std::vector<ObjectRow>& results, const std::v
             const auto [last, first_time] = last_id.try_emplace(label.id, result.id);
             out.id_switches += !first_time && last->second != result.id ? 1 : 0;
             last->second = result.id;
+            add_others(label, result, motions[m.label], samples);
             if (!counts(label)) {
                 continue;
             }

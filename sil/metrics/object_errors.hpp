@@ -22,6 +22,13 @@ struct ObjectErrors {
     std::optional<double> speed_median_mps{};
     std::optional<double> parked_speed_median_mps{};  ///< |speed| of cars whose labels stay within 1 m
     std::optional<double> parked_speed_p95_mps{};
+    int far_cars{0};  ///< cars 50 m or farther, occluded 1 or less, truncated 0.5 or less, 10 px high or more
+    std::optional<double> far_recall{};
+    std::optional<double> far_position_mean_percent{};
+    int labelled_pedestrians{0};  ///< 25 px high or more, occluded 1 or less, truncated 0.5 or less
+    std::optional<double> pedestrian_recall{};
+    std::optional<double> pedestrian_position_mean_percent{};
+    std::optional<double> pedestrian_speed_median_mps{};  ///< |speed - truth's|, walking
     int motion_steps{0};  ///< neighbouring labels of a moving car, both matched with one result id
     /// Object motion error: what is left of the truth's body-fixed motion T_o1^-1 T_o2 between two labelled frames
     /// after the result's own, through the result's ego poses: |translation|, |rotation|.

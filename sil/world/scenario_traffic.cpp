@@ -23,6 +23,26 @@ void add(Scenario& s, int id, ObjectClass object_class, const Motion& motion) {
     s.users.push_back(make_user(id, object_class, motion, s.seed * 100U + static_cast<std::uint32_t>(id)));
 }
 
+/// Up and down again: from `start` a sag, `straight` metres at `slope`, a crest, the same downwards, a sag. Vertical
+/// curves are parabolas of `radius`, as roads are built.
+std::vector<HeightKnot> hill_profile(double start, double slope, double radius, double straight) {
+    constexpr double kStep_m = 1.0;
+    const double sag = slope * radius;
+    const double length = 4.0 * sag + 2.0 * straight;
+    std::vector<HeightKnot> out;
+    double height = 0.0;
+    for (double z = 0.0; z <= length; z += kStep_m) {
+        out.push_back({start + z, height});
+        const double half = z + 0.5 * kStep_m < 0.5 * length ? z + 0.5 * kStep_m : length - z - 0.5 * kStep_m;
+        const double rise = half < sag              ? half / radius
+                            : half < sag + straight ? slope
+                                                    : slope - (half - sag - straight) / radius;
+        height += kStep_m * (z + 0.5 * kStep_m < 0.5 * length ? rise : -rise);
+    }
+    out.push_back({start + length, 0.0});
+    return out;
+}
+
 constexpr ObjectClass kCar = ObjectClass::kCar;
 constexpr double kLeftLane = -3.5;
 
@@ -150,10 +170,10 @@ Scenario make_braking_scenario() {
 }
 
 Scenario make_hill_scenario() {
-    Scenario s = make_base(52U, 70, 12.0);
+    Scenario s = make_base(52U, 75, 12.0);
     s.street.gaps_right = {};
     s.street.gaps_left = {};
-    s.street.profile = {{14.0, 0.0}, {17.0, 0.13}, {44.0, 2.49}, {50.0, 2.75}, {56.0, 2.49}, {83.0, 0.13}, {86.0, 0.0}};
+    s.street.profile = hill_profile(6.0, 0.0875, 200.0, 10.0);
     add(s, 1, kCar, make_motion(0.1, 18.0, 0.0, 12.2));
     add(s, 2, kCar, make_motion(kLeftLane, 110.0, kPi, 10.0));
     add_parked_cars(s.street, 0.0, 130.0, 14U, 10, s);

@@ -197,6 +197,7 @@ void TrackerCore::describe_points(Output& output) const {
     for (const FeatureMeasurement& m : features_) {
         SparsePoint point;
         point.owner = m.owner;
+        point.id = m.id;
         point.u = m.u;
         point.v = m.v;
         const double d = disparity(calibration_, static_cast<double>(m.u), static_cast<double>(m.u_right));

@@ -49,6 +49,21 @@ TEST(ObjectErrors, EmptyResultsHaveRecallZeroAndEmptyLabelsNone) {
     EXPECT_EQ(e.unmatched_rows, 1);
 }
 
+TEST(ObjectErrors, FarCarsAreJudgedApartWhateverTheirHeight) {
+    std::vector<ObjectRow> labels{car(0, 1, 100.0, {0, 2, 60}), car(0, 2, 300.0, {0, 2, 80}),
+                                  car(0, 3, 500.0, {0, 2, 40})};
+    for (ObjectRow& label : labels) {
+        label.box.bottom = label.box.top + 12.0;
+    }
+    ObjectRow result = labels[0];
+    result.bottom_c0(2) += 6.0;
+    const ObjectErrors e = compare_objects({result}, {0}, truth_of(labels, {0}));
+    EXPECT_EQ(e.labelled_cars, 0);
+    EXPECT_EQ(e.far_cars, 2);
+    EXPECT_EQ(*e.far_recall, 0.5);
+    EXPECT_NEAR(*e.far_position_mean_percent, 100.0 * 6.0 / labels[0].bottom_c0.norm(), 1e-12);
+}
+
 TEST(ObjectErrors, FramesThatAreNotLabelledSayNothing) {
     const ObjectErrors e =
         compare_objects({car(1, 1, 100.0, {1, 2, 10})}, {0, 1}, truth_of({car(0, 1, 100.0, {1, 2, 10})}, {0}));

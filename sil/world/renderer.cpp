@@ -2,6 +2,7 @@
 
 #include <thread>
 
+#include "sil/world/rectify.hpp"
 #include "sil/world/shading.hpp"
 #include "sil/world/texture.hpp"
 
@@ -357,6 +358,8 @@ void Renderer::render(int frame, GreyImage& left, GreyImage& right, int threads)
     right_camera.row_offset.constant += imaging.row_error_px;
     render_view(scene_, now, right_view(right_camera, now.T_n_c, imaging.samples),
                 {gain * imaging.right_gain, imaging.right_offset, imaging.noise_sigma, hash(seed, 1U)}, threads, right);
+    rectify(left, imaging.rectification_px, hash(scene_.scenario().seed, 31U));
+    rectify(right, imaging.rectification_px, hash(scene_.scenario().seed, 32U));
     if (frame >= imaging.blind_right_from && frame <= imaging.blind_right_to) {
         for (std::uint8_t& p : right.pixels) {
             p = 0;

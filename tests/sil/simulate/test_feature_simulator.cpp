@@ -98,8 +98,8 @@ TEST(FeatureSimulator, PointsLieWithinFortyCentimetresUnderFacesThatAreSeenOrBeh
             }
             // Rear (-x) or left (+y) or the roof (+z) are seen.
             const double under = std::min({p(0) + 1.95, 0.8 - p(1), 0.75 - p(2)});
-            EXPECT_GT(under, -0.01) << p.transpose();
-            EXPECT_LT(under, 0.41) << p.transpose();
+            EXPECT_GT(under, -0.01) << p(0) << " " << p(1) << " " << p(2);
+            EXPECT_LT(under, 0.41) << p(0) << " " << p(1) << " " << p(2);
         }
     }
     EXPECT_GT(background, all / 20);

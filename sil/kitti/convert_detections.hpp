@@ -20,7 +20,7 @@ struct ConvertOptions {
     std::filesystem::path labels;             ///< KITTI tracking labels
     bool viewpoints{true};
     std::string object_class{"Car"};  ///< of rrc rows without class
-    double least_score{0};            ///< below: left out
+    double least_score{-1e9};         ///< below: left out
     double focal_px{721.5};           ///< kitti without a 3D place: distance from the box's height
     std::optional<int> first;         ///< frames that the detector answered; default: from 0 to the last row's
     std::optional<int> last;

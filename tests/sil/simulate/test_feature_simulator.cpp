@@ -87,7 +87,8 @@ TEST(FeatureSimulator, PointsLieWithinFortyCentimetresUnderFacesThatAreSeenOrBeh
     int background = 0;
     int all = 0;
     for (int frame = 0; frame < 10; ++frame) {
-        for (const ExternalFeature& f : *at(simulator, frame)) {
+        const auto features = at(simulator, frame);
+        for (const ExternalFeature& f : *features) {
             const double d = static_cast<double>(f.u) - static_cast<double>(f.u_right);
             const Vec3 p = T_o_c * Vec3(bearing(c.left, static_cast<double>(f.u), static_cast<double>(f.v)) *
                                         (c.left.fx * c.baseline_m / d));
@@ -130,7 +131,8 @@ TEST(FeatureSimulator, WhatIsHiddenBehindANearerCarHasFewerFeatures) {
     OneCar behind(15.0, true);
     FeatureSimulator with(behind, {}, 0, 9, 0.5);
     int deep = 0;
-    for (const ExternalFeature& f : *at(with, 2)) {
+    const auto features = at(with, 2);
+    for (const ExternalFeature& f : *features) {
         deep += f.u - f.u_right < 16.0F ? 1 : 0;  // beyond 24 m
     }
     EXPECT_LT(deep, at(without, 2)->size());

@@ -99,6 +99,22 @@ RunCounts old_run_counts(const fs::path& path) {
     return out;
 }
 
+/// Of an older metrics.json too: only the run itself saw the features.
+std::optional<FeatureStatistics> old_features(const fs::path& path) {
+    std::ifstream in(path);
+    const auto json = nlohmann::ordered_json::parse(in, nullptr, false);
+    if (!json.is_object() || !json.contains("features") || !json["features"].is_object()) {
+        return std::nullopt;
+    }
+    const auto value = [&](const char* name) -> std::optional<double> {
+        const auto found = json["features"].find(name);
+        const bool number = found != json["features"].end() && found->is_number();
+        return number ? std::optional<double>(found->get<double>()) : std::nullopt;
+    };
+    return FeatureStatistics{value("background_mean"), value("stereo_share"), value("track_length_mean"),
+                             value("track_length_median")};
+}
+
 DriveTruth read_odometry_truth(const DriveOptions& options) {
     const fs::path poses = options.root / "poses" / (options.sequence + ".txt");
     if (!fs::exists(poses)) {
@@ -204,6 +220,7 @@ void run_evaluate(const EvaluateOptions& options) {
     const fs::path path = options.results / "metrics.json";
     Metrics metrics = evaluate_results(options.results, read_truth(options.drive));
     metrics.run = old_run_counts(path);
+    metrics.features = old_features(path);
     const fs::path unfinished = options.results / "metrics.json.unfinished";
     try {
         write_file(unfinished, to_json(metrics));

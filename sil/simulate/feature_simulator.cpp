@@ -80,9 +80,8 @@ void FeatureSimulator::simulate(int frame, const std::vector<Box>& boxes, const 
     for (const Box& box : boxes) {
         const double wanted = kCountPerPx * (box.box.bottom - box.box.top) - kCountOffset;
         const int count = std::clamp(static_cast<int>(wanted), 0, kMostPoints);
-        int seen = 0;
-        for (int number = 0; number < 2 * kMostPoints && seen < count; ++number) {
-            seen += add(frame, box, number, T_f_c, boxes, out) ? 1 : 0;
+        for (int number = 0; number < count; ++number) {  // hidden ones are not made up for
+            (void)add(frame, box, number, T_f_c, boxes, out);
         }
     }
 }

@@ -67,18 +67,17 @@ Viewpoint viewpoint_of_alpha(double alpha, const Box2d& box, const Vec3& size_m,
     return visible_faces(label_pose(l), size_m);
 }
 
-/// Words from `at` on: alpha, box, h w l, x y z, ry.
-Label kitti_label(const TextFile& file, const TextRow& row, std::size_t at) {
+/// Four words from `box` on, and h w l x y z ry from `place` on.
+Label label_of(const TextFile& file, const TextRow& row, std::size_t box, std::size_t place) {
     Label l;
-    l.alpha = file.number(row, at);
-    l.box = {file.number(row, at + 1), file.number(row, at + 2), file.number(row, at + 3), file.number(row, at + 4)};
-    l.height = file.number(row, at + 5);
-    l.width = file.number(row, at + 6);
-    l.length = file.number(row, at + 7);
-    l.x = file.number(row, at + 8);
-    l.y = file.number(row, at + 9);
-    l.z = file.number(row, at + 10);
-    l.rotation_y = file.number(row, at + 11);
+    l.box = {file.number(row, box), file.number(row, box + 1), file.number(row, box + 2), file.number(row, box + 3)};
+    l.height = file.number(row, place);
+    l.width = file.number(row, place + 1);
+    l.length = file.number(row, place + 2);
+    l.x = file.number(row, place + 3);
+    l.y = file.number(row, place + 4);
+    l.z = file.number(row, place + 5);
+    l.rotation_y = file.number(row, place + 6);
     return l;
 }
 
@@ -142,7 +141,8 @@ private:
         if (!class_from_name(type, object_class)) {
             file.refuse(row, "unknown class " + quoted_word(type));
         }
-        const Label l = kitti_label(file, row, at + 3);
+        Label l = label_of(file, row, at + 4, at + 8);
+        l.alpha = file.number(row, at + 3);
         const double score = row.words.size() > at + 15 ? file.number(row, at + 15) : 1.0;
         add(frame, object_class, l.box, score, viewpoint_of_label(l, object_class, o_.focal_px));
     }
@@ -220,15 +220,7 @@ private:
             const ObjectClass object_class = type == 1   ? ObjectClass::kPedestrian
                                              : type == 2 ? ObjectClass::kCar
                                                          : ObjectClass::kCyclist;
-            Label l;
-            l.box = {file.number(row, 2), file.number(row, 3), file.number(row, 4), file.number(row, 5)};
-            l.height = file.number(row, 7);
-            l.width = file.number(row, 8);
-            l.length = file.number(row, 9);
-            l.x = file.number(row, 10);
-            l.y = file.number(row, 11);
-            l.z = file.number(row, 12);
-            l.rotation_y = file.number(row, 13);
+            Label l = label_of(file, row, 2, 7);
             l.alpha = file.number(row, 14);
             add(file.integer(row, 0), object_class, l.box, file.number(row, 6),
                 viewpoint_of_label(l, object_class, o_.focal_px));

@@ -28,6 +28,13 @@ inline void append_number(std::string& text, double value) {
     return text;
 }
 
+/// The shortest text that reads back as the same value, for people.
+[[nodiscard]] inline std::string short_text(double value) {
+    std::array<char, 40> buffer{};
+    const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+    return error == std::errc{} ? std::string(buffer.data(), end) : std::string("?");
+}
+
 /// %.Nf for people.
 [[nodiscard]] inline std::string fixed_text(double value, int digits) {
     std::array<char, 400> buffer{};

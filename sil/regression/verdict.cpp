@@ -24,10 +24,10 @@ std::optional<double> value_of(const Json& metrics, const std::string& metric) {
 std::string limits_text(const Bound& b) {
     std::string text;
     if (b.least) {
-        text += "at least " + number_text(*b.least);
+        text += "at least " + short_text(*b.least);
     }
     if (b.most) {
-        text += (text.empty() ? "at most " : " and at most ") + number_text(*b.most);
+        text += (text.empty() ? "at most " : " and at most ") + short_text(*b.most);
     }
     return text;
 }
@@ -37,7 +37,7 @@ bool holds(const std::optional<double>& value, const Bound& b) {
 }
 
 std::string short_number(const std::optional<double>& value) {
-    return value ? fixed_text(*value, 4) : std::string("unknown");
+    return value ? short_text(*value) : std::string("unknown");
 }
 
 std::string escaped(const std::string& text) {

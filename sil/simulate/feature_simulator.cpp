@@ -31,15 +31,6 @@ std::uint32_t mixed(std::uint32_t a, std::uint32_t b) {
     return h;
 }
 
-/// Sum of twelve uniforms: standard normal, cut at 6 sigma.
-double normal(Rng& rng) {
-    double sum = -6.0;
-    for (int k = 0; k < 12; ++k) {
-        sum += rng.uniform();
-    }
-    return sum;
-}
-
 bool is_simulated(const std::string& type) {
     return type == "Car" || type == "Van" || type == "Truck";
 }
@@ -178,10 +169,10 @@ bool FeatureSimulator::add(int frame, const Box& box, int number, const Pose& T_
     f.id = mixed(own, point.generation * 2U + 1U);
     f.stereo = true;
     const double d = calibration_.left.fx * calibration_.baseline_m / x_c(2);
-    f.u = static_cast<float>(left(0) + noise_px_ * normal(chance));
-    f.v = static_cast<float>(left(1) + noise_px_ * normal(chance));
+    f.u = static_cast<float>(left(0) + noise_px_ * chance.normal());
+    f.v = static_cast<float>(left(1) + noise_px_ * chance.normal());
     f.u_right =
-        static_cast<float>(left(0) - d - (calibration_.left.cx - calibration_.right.cx) + noise_px_ * normal(chance));
+        static_cast<float>(left(0) - d - (calibration_.left.cx - calibration_.right.cx) + noise_px_ * chance.normal());
     f.sigma_px = static_cast<float>(noise_px_);
     out.push_back(f);
     return true;

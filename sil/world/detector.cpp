@@ -11,15 +11,6 @@ namespace {
 
 constexpr double kSurePx = 40.0;  // from this height on only the basic miss rate holds
 
-// Sum of twelve uniforms: standard normal, cut at 6 sigma.
-double normal(Rng& rng) {
-    double sum = -6.0;
-    for (int k = 0; k < 12; ++k) {
-        sum += rng.uniform();
-    }
-    return sum;
-}
-
 double miss_rate(const DetectorErrors& e, double height_px, double visible_share) {
     double rate = e.miss;
     if (height_px < kSurePx) {
@@ -48,10 +39,10 @@ void add_edge_errors(const DetectorErrors& e, Rng& rng, Box2d& box) {
     };
     const double across = sigma(box.right - box.left);
     const double down = sigma(box.bottom - box.top);
-    box.left += across * normal(rng);
-    box.right += across * normal(rng);
-    box.top += down * normal(rng);
-    box.bottom += down * normal(rng);
+    box.left += across * rng.normal();
+    box.right += across * rng.normal();
+    box.top += down * rng.normal();
+    box.bottom += down * rng.normal();
 }
 
 bool false_positive(const Calibration& c, Rng& rng, Detection& out) {

@@ -22,6 +22,14 @@ public:
     int below(int n) { return static_cast<int>(next() % static_cast<std::uint32_t>(n)); }
     /// [0, 1), 24 bits.
     double uniform() { return static_cast<double>(next() >> 8U) / 16777216.0; }
+    /// Nearly standard normal, cut at 6 sigma: the sum of twelve uniforms, so the same bits everywhere.
+    double normal() {
+        double sum = -6.0;
+        for (int k = 0; k < 12; ++k) {
+            sum += uniform();
+        }
+        return sum;
+    }
 
 private:
     std::uint32_t s_;

@@ -6,13 +6,8 @@
 
 namespace semtrack {
 
-/// Nearly normal, mean 0, sigma 1 (sum of twelve uniform numbers).
 inline double normal(Rng& rng) {
-    double sum = -6.0;
-    for (int i = 0; i < 12; ++i) {
-        sum += rng.uniform();
-    }
-    return sum;
+    return rng.normal();
 }
 
 /// Uniform between two values.

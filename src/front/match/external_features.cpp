@@ -93,16 +93,7 @@ void ExternalMatcher::emit(int owner, const ExternalFeatures& in, FrameFeatures&
             continue;
         }
         const ExternalFeature& f = in[entries_[entry_of_[at(first + s)]].index];
-        FeatureMeasurement m;
-        m.id = slot.id;
-        m.slot = static_cast<std::int16_t>(s);
-        m.owner = static_cast<std::uint8_t>(owner);
-        m.tracked = slot.age > 0;
-        m.previous_stereo = m.tracked && slot.stereo;
-        m.age = slot.age;
-        m.previous_u = slot.u;
-        m.previous_v = slot.v;
-        m.previous_u_right = slot.u_right;
+        FeatureMeasurement m = continued(slot, owner, s);
         m.u = f.u;
         m.v = f.v;
         m.stereo = f.stereo;
@@ -110,12 +101,7 @@ void ExternalMatcher::emit(int owner, const ExternalFeatures& in, FrameFeatures&
         m.v_right = f.stereo ? f.v : 0.0F;
         m.sigma_px = f.sigma_px;
         m.sigma_right_px = f.sigma_px;
-        slot.stereo = m.stereo;
-        slot.u = m.u;
-        slot.v = m.v;
-        slot.u_right = m.u_right;
-        slot.v_right = m.v_right;
-        slot.age = static_cast<std::uint16_t>(slot.age < 65535 ? slot.age + 1 : slot.age);
+        store(m, slot);
         if (!out.try_push_back(m)) {
             return;
         }

@@ -60,6 +60,30 @@ struct FeatureTable {
     }
 };
 
+/// What a slot says of its feature before this frame's sight of it is stored.
+[[nodiscard]] inline FeatureMeasurement continued(const FeatureSlot& slot, int owner, int slot_number) {
+    FeatureMeasurement m;
+    m.id = slot.id;
+    m.slot = static_cast<std::int16_t>(slot_number);
+    m.owner = static_cast<std::uint8_t>(owner);
+    m.tracked = slot.age > 0;
+    m.previous_stereo = m.tracked && slot.stereo;
+    m.age = slot.age;
+    m.previous_u = slot.u;
+    m.previous_v = slot.v;
+    m.previous_u_right = slot.u_right;
+    return m;
+}
+/// Stores this frame's sight.
+inline void store(const FeatureMeasurement& m, FeatureSlot& slot) {
+    slot.stereo = m.stereo;
+    slot.u = m.u;
+    slot.v = m.v;
+    slot.u_right = m.u_right;
+    slot.v_right = m.v_right;
+    slot.age = static_cast<std::uint16_t>(slot.age < 65535 ? slot.age + 1 : slot.age);
+}
+
 // Both matchers have:
 //   void reset();
 //   Status process(const MatcherInput& input, FrameFeatures& out);   out sorted by owner, then slot

@@ -338,16 +338,7 @@ void OrbMatcher::emit(int owner, FrameFeatures& out) {
         const int i = match_[at(first + s)];
         const Keypoint& k = left_[i];
         const float scale = kLevelScale[at(k.level < 8 ? k.level : 7)];
-        FeatureMeasurement m;
-        m.id = slot.id;
-        m.slot = static_cast<std::int16_t>(s);
-        m.owner = static_cast<std::uint8_t>(owner);
-        m.tracked = slot.age > 0;
-        m.previous_stereo = m.tracked && slot.stereo;
-        m.age = slot.age;
-        m.previous_u = slot.u;
-        m.previous_v = slot.v;
-        m.previous_u_right = slot.u_right;
+        FeatureMeasurement m = continued(slot, owner, s);
         m.u = k.u;
         m.v = k.v;
         m.stereo = u_right_[at(i)] >= 0.0F;
@@ -355,12 +346,7 @@ void OrbMatcher::emit(int owner, FrameFeatures& out) {
         m.v_right = m.stereo ? v_right_[at(i)] : 0.0F;
         m.sigma_px = kSigma_px * scale;
         m.sigma_right_px = kSigmaRight_px;
-        slot.stereo = m.stereo;
-        slot.u = m.u;
-        slot.v = m.v;
-        slot.u_right = m.u_right;
-        slot.v_right = m.v_right;
-        slot.age = static_cast<std::uint16_t>(slot.age < 65535 ? slot.age + 1 : slot.age);
+        store(m, slot);
         looks_[at(first + s)] = {k.descriptor, k.level};
         if (!out.try_push_back(m)) {
             return;

@@ -8,8 +8,8 @@ namespace {
 
 constexpr int kIterations = 12;
 constexpr float kSettled_px = 0.02F;
-constexpr float kMinTexture = 300.0F;      // sum of squared gradients over the patch: below, noise decides
-constexpr int kSource = kPatch + 2;        // with one more pixel around for gradients
+constexpr float kMinTexture = 300.0F;  // sum of squared gradients over the patch: below, noise decides
+constexpr int kSource = kPatch + 2;    // with one more pixel around for gradients
 
 int floor_int(float x) {
     const int i = static_cast<int>(x);

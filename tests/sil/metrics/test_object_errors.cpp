@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "math/trig.hpp"
+#include "rows.hpp"
 
 namespace semtrack::sil {
 namespace {
+
+using test::truth_of;
 
 ObjectRow car(int frame, int id, double left, const Vec3& bottom) {
     ObjectRow o;
@@ -16,13 +19,6 @@ ObjectRow car(int frame, int id, double left, const Vec3& bottom) {
     o.size_m = Vec3(3.9, 1.6, 1.5);
     o.bottom_c0 = bottom;
     return o;
-}
-
-ObjectTruthSet truth_of(std::vector<ObjectRow> labels, std::vector<int> frames) {
-    ObjectTruthSet t;
-    t.labels = std::move(labels);
-    t.frames = std::move(frames);
-    return t;
 }
 
 TEST(ObjectErrors, ResultsEqualToTheLabelsHaveFullRecallAndNoError) {

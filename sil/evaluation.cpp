@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "publish/object_list.hpp"
 #include "sil/kitti/detection_file.hpp"
 #include "sil/kitti/drive_files.hpp"
 #include "sil/kitti/label_detections.hpp"
@@ -115,6 +116,15 @@ std::optional<FeatureStatistics> old_features(const fs::path& path) {
                              value("track_length_median")};
 }
 
+void add_yaw_rates(const std::map<std::pair<int, int>, double>& published, std::vector<ObjectRow>& objects) {
+    for (ObjectRow& row : objects) {
+        const auto found = published.find({row.frame, row.id % static_cast<int>(kObjectIds)});
+        if (found != published.end()) {
+            row.yaw_rate = found->second;
+        }
+    }
+}
+
 DriveTruth read_odometry_truth(const DriveOptions& options) {
     const fs::path poses = options.root / "poses" / (options.sequence + ".txt");
     if (!fs::exists(poses)) {
@@ -171,6 +181,9 @@ ResultFiles read_results(const fs::path& dir) {
     if (out.has_objects) {
         out.objects = read_object_rows(dir / "objects.txt");
     }
+    if (out.has_objects && fs::exists(dir / "list.csv")) {
+        add_yaw_rates(read_yaw_rates(dir / "list.csv"), out.objects);
+    }
     if (fs::exists(dir / "states.csv") && fs::exists(dir / "ego.csv")) {
         out.states = read_state_rows(dir / "states.csv");
         out.ego_motion = read_ego_motion_rows(dir / "ego.csv");
@@ -209,8 +222,17 @@ Metrics compare(const ResultFiles& results, const DriveTruth& truth) {
     return metrics;
 }
 
-Metrics evaluate_results(const fs::path& dir, const DriveTruth& truth) {
-    return compare(read_results(dir), truth);
+Metrics evaluate_results(const fs::path& dir, const DriveTruth& truth, const std::vector<fs::path>& others) {
+    const ResultFiles results = read_results(dir);
+    Metrics metrics = compare(results, truth);
+    if (!others.empty()) {
+        std::vector<Trajectory> trajectories;
+        for (const fs::path& other : others) {
+            trajectories.push_back(read_trajectory_file(other, results.frames));
+        }
+        metrics.agreement = compare_with_others(results.ego, trajectories);
+    }
+    return metrics;
 }
 
 void run_evaluate(const EvaluateOptions& options) {
@@ -218,7 +240,7 @@ void run_evaluate(const EvaluateOptions& options) {
         throw InputError(options.results.string() + ": no such folder");
     }
     const fs::path path = options.results / "metrics.json";
-    Metrics metrics = evaluate_results(options.results, read_truth(options.drive));
+    Metrics metrics = evaluate_results(options.results, read_truth(options.drive), options.drive.others);
     metrics.run = old_run_counts(path);
     metrics.features = old_features(path);
     const fs::path unfinished = options.results / "metrics.json.unfinished";

@@ -35,7 +35,9 @@ struct ResultFiles {
 /// doubled or falling frame numbers, an object without size, the same frame and id twice.
 [[nodiscard]] ResultFiles read_results(const std::filesystem::path& dir);
 [[nodiscard]] Metrics compare(const ResultFiles& results, const DriveTruth& truth);
-[[nodiscard]] Metrics evaluate_results(const std::filesystem::path& dir, const DriveTruth& truth);
+/// `others`: pose rows of other odometries on the frames of the results.
+[[nodiscard]] Metrics evaluate_results(const std::filesystem::path& dir, const DriveTruth& truth,
+                                       const std::vector<std::filesystem::path>& others);
 
 /// `semtrack-sil evaluate`: writes DIR/metrics.json (the run's own counts in an older one are kept) and prints.
 void run_evaluate(const EvaluateOptions& options);

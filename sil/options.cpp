@@ -40,6 +40,9 @@ void add_drive(CLI::App& app, DriveOptions& drive) {
     app.add_option("--calib", drive.calib, "calibration file in place of the layout's own");
     app.add_option("--detections-camera", drive.detections_camera, "camera of the boxes (0; tracking 2)")
         ->check(CLI::IsMember({0, 2}));
+    app.add_option("--other", drive.others, "pose rows of another odometry on the same frames; may be given twice")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 void add_replay(CLI::App& app, ReplayOptions& o, Words& w) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "semtrack/can_encoder.hpp"
 #include "semtrack/config.hpp"
@@ -23,6 +24,7 @@ struct DriveOptions {
     int width{1242};  ///< without images
     int height{375};
     std::filesystem::path ego;  ///< poses file; empty: estimate
+    std::vector<std::filesystem::path> others;  ///< pose rows of other odometries, of the same frames
 };
 
 struct ReplayOptions {

@@ -239,7 +239,7 @@ void run_replay(const ReplayOptions& options) {
     {
         Run run(options, drive, folder.work());
         run.all_frames();
-        metrics = evaluate_results(folder.work(), truth);
+        metrics = evaluate_results(folder.work(), truth, options.drive.others);
         metrics.run = run.counts();
         metrics.features = run.features();
         total_us = run.total_us();

@@ -83,18 +83,32 @@ std::vector<ObjectRow> read_object_rows(const fs::path& path) {
 }
 
 Trajectory read_trajectory(const fs::path& dir, const std::vector<int>& frames) {
-    const fs::path path = dir / "ego.txt";
     if (frames.empty()) {
         throw InputError((dir / "frames.txt").string() + ": holds no frames");
     }
+    return read_trajectory_file(dir / "ego.txt", frames);
+}
+
+Trajectory read_trajectory_file(const fs::path& path, const std::vector<int>& frames) {
     const std::map<int, RigidTransform> poses = read_poses(path, frames);
     if (poses.size() != frames.size()) {
-        throw InputError(path.string() + ": has " + std::to_string(poses.size()) + " poses, frames.txt has " +
+        throw InputError(path.string() + ": has " + std::to_string(poses.size()) + " poses, the results have " +
                          std::to_string(frames.size()));
     }
     Trajectory out;
     for (const auto& [frame, T] : poses) {
         out[frame] = to_pose(T);
+    }
+    return out;
+}
+
+std::map<std::pair<int, int>, double> read_yaw_rates(const fs::path& path) {
+    const Table table(path);
+    std::map<std::pair<int, int>, double> out;
+    for (const TextRow& row : table.rows()) {
+        if (!table.text(row, "ObjectId").empty() && !table.text(row, "YawRate").empty()) {
+            out[{table.integer(row, "frame"), table.integer(row, "ObjectId")}] = table.number(row, "YawRate");
+        }
     }
     return out;
 }

@@ -36,6 +36,7 @@ void add_ego(JsonObject& json, const TrajectoryErrors& e) {
     json.add("compared_path_length_m", e.path_length_m);
     json.add("ate_rmse_m", e.ate_rmse_m);
     json.add("rpe_trans_mean_m", e.rpe_trans_mean_m);
+    json.add("rpe_trans_rms_m", e.rpe_trans_rms_m);
     json.add("rpe_rot_mean_deg", e.rpe_rot_mean_deg);
     json.add("segments", std::int64_t{e.segments});
     json.add("segment_trans_percent", e.segment_trans_percent);
@@ -58,6 +59,9 @@ void add_objects(JsonObject& json, const ObjectErrors& e) {
     json.add("moving_car_speed_median_mps", e.speed_median_mps);
     json.add("parked_car_speed_median_mps", e.parked_speed_median_mps);
     json.add("parked_car_speed_p95_mps", e.parked_speed_p95_mps);
+    json.add("moving_car_yaw_rates", std::int64_t{e.yaw_rates});
+    json.add("moving_car_yaw_rate_mean_radps", e.yaw_rate_mean_radps);
+    json.add("moving_car_yaw_rate_median_radps", e.yaw_rate_median_radps);
     json.add("far_cars", std::int64_t{e.far_cars});
     json.add("far_car_recall", e.far_recall);
     json.add("far_car_position_mean_percent", e.far_position_mean_percent);
@@ -134,6 +138,22 @@ std::string position_text(const PositionEvaluation& position) {
     return all.text();
 }
 
+std::string agreement_text(const Agreement& a) {
+    JsonObject json(2);
+    const auto list = [&](const char* key, std::optional<double> TrajectoryErrors::*value) {
+        std::string text;
+        for (const TrajectoryErrors& e : a.with) {
+            text += (text.empty() ? "" : ", ") + number_or_null(e.*value);
+        }
+        json.member(key, "[" + text + "]");
+    };
+    list("ate_rmse_m", &TrajectoryErrors::ate_rmse_m);
+    list("rpe_trans_mean_m", &TrajectoryErrors::rpe_trans_mean_m);
+    list("rpe_rot_mean_deg", &TrajectoryErrors::rpe_rot_mean_deg);
+    json.add("own_error_rms_m", a.own_error_rms_m);
+    return json.text();
+}
+
 std::string features_text(const FeatureStatistics& f) {
     JsonObject json(2);
     json.add("background_mean", f.per_frame_mean);
@@ -174,6 +194,7 @@ std::string to_json(const Metrics& metrics) {
     json.add("objects", std::int64_t{c.objects});
     json.add("object_rows", std::int64_t{c.object_rows});
     add_ego(json, metrics.ego.value_or(TrajectoryErrors{}));
+    json.member("agreement", metrics.agreement ? agreement_text(*metrics.agreement) : "null");
     add_objects(json, metrics.objects.value_or(ObjectErrors{}));
     json.member("tracking", metrics.object_scores ? tracking_text(metrics.object_scores->tracking.scores()) : "null");
     json.member("average_precision", metrics.object_scores ? precision_text(metrics.object_scores->precision) : "null");

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "sil/metrics/agreement.hpp"
 #include "sil/metrics/consistency.hpp"
 #include "sil/metrics/feature_statistics.hpp"
 #include "sil/metrics/object_errors.hpp"
@@ -33,6 +34,7 @@ using RunCounts = std::vector<std::pair<std::string, std::int64_t>>;
 struct Metrics {
     ResultCounts counts{};
     std::optional<TrajectoryErrors> ego{};        ///< empty: no truth
+    std::optional<Agreement> agreement{};         ///< empty: no other trajectories
     std::optional<ObjectErrors> objects{};        ///< empty: no labels
     std::optional<ObjectScores> object_scores{};  ///< empty: no labels
     std::optional<Consistency> consistency{};     ///< empty: no standard deviations in the folder

@@ -48,6 +48,7 @@ struct Samples {
     std::vector<double> heading_deg;
     std::vector<double> flips;
     std::vector<double> speed;
+    std::vector<double> yaw_rate;
     std::vector<double> parked;
     std::vector<double> far_percent;
     std::vector<double> pedestrian_percent;
@@ -71,6 +72,9 @@ void add_pair(const ObjectRow& label, const ObjectRow& result, const std::option
         s.parked.push_back(std::fabs(result.speed));
     } else if (motion && std::fabs(motion->speed) >= kMovingSpeed) {
         s.speed.push_back(std::fabs(result.speed - motion->speed));
+        if (result.yaw_rate) {
+            s.yaw_rate.push_back(std::fabs(*result.yaw_rate - motion->yaw_rate));
+        }
     }
 }
 
@@ -132,6 +136,9 @@ void summarise(const Samples& s, ObjectErrors& out) {
     out.heading_flip_share = mean(s.flips);
     out.speed_mean_mps = mean(s.speed);
     out.speed_median_mps = median(s.speed);
+    out.yaw_rates = static_cast<int>(s.yaw_rate.size());
+    out.yaw_rate_mean_radps = mean(s.yaw_rate);
+    out.yaw_rate_median_radps = median(s.yaw_rate);
     out.parked_speed_median_mps = median(s.parked);
     out.parked_speed_p95_mps = quantile(s.parked, 0.95);
     out.motion_steps = static_cast<int>(s.motion_m.size());

@@ -20,6 +20,9 @@ struct ObjectErrors {
     std::optional<double> heading_flip_share{};  ///< off by more than 90 degrees
     std::optional<double> speed_mean_mps{};      ///< |speed - truth's|, cars that move
     std::optional<double> speed_median_mps{};
+    int yaw_rates{0};  ///< moving cars with a published yaw rate
+    std::optional<double> yaw_rate_mean_radps{};  ///< |published yaw rate - truth's|
+    std::optional<double> yaw_rate_median_radps{};
     std::optional<double> parked_speed_median_mps{};  ///< |speed| of cars whose labels stay within 1 m
     std::optional<double> parked_speed_p95_mps{};
     int far_cars{0};  ///< cars 50 m or farther, occluded 1 or less, truncated 0.5 or less, 10 px high or more

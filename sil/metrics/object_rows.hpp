@@ -27,6 +27,7 @@ struct ObjectRow {
     double rotation_y{0};
     double score{0};
     double speed{0};
+    std::optional<double> yaw_rate{};  ///< as published; empty: not known
 };
 
 struct ObjectTruthSet {

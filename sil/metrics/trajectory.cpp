@@ -79,6 +79,7 @@ Pose step_error(const PairedPoses& p, std::size_t from, std::size_t to) {
 
 void relative_errors(const PairedPoses& p, TrajectoryErrors& out) {
     double trans = 0.0;
+    double squares = 0.0;
     double rot = 0.0;
     int count = 0;
     for (std::size_t i = 1; i < p.frames.size(); ++i) {
@@ -87,11 +88,13 @@ void relative_errors(const PairedPoses& p, TrajectoryErrors& out) {
         }
         const Pose error = step_error(p, i - 1, i);
         trans += error.t.norm();
+        squares += error.t.squaredNorm();
         rot += so3_log(error.R).norm();
         ++count;
     }
     if (count > 0) {
         out.rpe_trans_mean_m = trans / count;
+        out.rpe_trans_rms_m = std::sqrt(squares / count);
         out.rpe_rot_mean_deg = degrees(rot) / count;
     }
 }

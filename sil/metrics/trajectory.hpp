@@ -20,6 +20,7 @@ struct TrajectoryErrors {
     std::optional<double> truth_path_length_m{};
     std::optional<double> ate_rmse_m{};        ///< positions, after SE3 alignment
     std::optional<double> rpe_trans_mean_m{};  ///< between consecutive frame numbers
+    std::optional<double> rpe_trans_rms_m{};
     std::optional<double> rpe_rot_mean_deg{};
     std::optional<double> segment_trans_percent{};  ///< KITTI: 100..800 m, a start every tenth frame
     std::optional<double> segment_rot_deg_per_100m{};

@@ -186,8 +186,10 @@ private:
                 }
                 continue;
             }
-            c.arguments.push_back("--" + key);
-            c.arguments.push_back(argument(key, value.is_string() ? value.get<std::string>() : value.dump(), c));
+            for (const Json& one : value.is_array() ? value : Json::array({value})) {  // an option given several times
+                c.arguments.push_back("--" + key);
+                c.arguments.push_back(argument(key, one.is_string() ? one.get<std::string>() : one.dump(), c));
+            }
         }
         if (c.missing.empty()) {
             check(c);
@@ -195,7 +197,7 @@ private:
     }
 
     [[nodiscard]] std::string argument(const std::string& key, const std::string& value, ScenarioCase& c) const {
-        const bool is_path = key == "root" || key == "calib" || key == "mount" ||
+        const bool is_path = key == "root" || key == "calib" || key == "mount" || key == "other" ||
                              (key == "detections" && value != "none" && value != "labels") ||
                              (key == "ego" && value != "estimate");
         return is_path ? existing(value, c.missing) : value;

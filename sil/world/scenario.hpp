@@ -90,7 +90,7 @@ struct Imaging {
     RowOffset row_offset{};        ///< rendered exactly and stated in the calibration
     double row_error_px{0.0};      ///< the right image lies so much lower than the calibration says
     int samples{4};                ///< a pixel: 4 or 8
-    double rectification_px{0.0};  ///< residual of the rectification, amplitude (rectify.hpp); 0: none
+    double rectification_px{0.55};  ///< residual of the rectification, amplitude (rectify.hpp); 0: none
 };
 
 struct DetectorErrors {

@@ -8,8 +8,7 @@ namespace semtrack {
 
 namespace {
 
-constexpr std::uint32_t kObjectIds = 4095;  // all ones of 12 bits means that the slot is not used
-constexpr double kMinExistence = 0.05;      // how far uncertainty pushes an object back
+constexpr double kMinExistence = 0.05;  // how far uncertainty pushes an object back
 constexpr double kTruncatedShare = 0.1;
 constexpr double kMovingPerson_mps = 0.5;  // below, the direction of motion says nothing
 

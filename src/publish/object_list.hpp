@@ -12,6 +12,9 @@
 
 namespace semtrack {
 
+/// ObjectId is the track's id modulo this: all ones of 12 bits means that the slot is not used.
+inline constexpr std::uint32_t kObjectIds = 4095;
+
 /// Indices into Output::objects, in the order of the list.
 using ObjectOrder = StaticVector<std::uint8_t, kMaxObjects>;
 

@@ -60,6 +60,44 @@ TEST(ObjectErrors, FarCarsAreJudgedApartWhateverTheirHeight) {
     EXPECT_NEAR(*e.far_position_mean_percent, 100.0 * 6.0 / labels[0].bottom_c0.norm(), 1e-12);
 }
 
+// A car that drives along x at 5 m/s and turns by 0.02 rad a frame (0.1 s) to the left.
+std::vector<ObjectRow> turning_car() {
+    std::vector<ObjectRow> out;
+    for (int n = 0; n < 5; ++n) {
+        out.push_back(car(n, 1, 100.0, {0.5 * n, 2, 20}));
+        out.back().rotation_y = -0.02 * n;
+    }
+    return out;
+}
+
+ObjectTruthSet standing_camera(const std::vector<ObjectRow>& labels) {
+    ObjectTruthSet truth = truth_of(labels, {0, 1, 2, 3, 4});
+    for (const int n : truth.frames) {
+        truth.T_f_c0[n] = Pose{};
+        truth.time_us[n] = 100000 * n;
+    }
+    return truth;
+}
+
+TEST(ObjectErrors, PublishedYawRatesOfMovingCarsMeetTheTurnOfTheLabels) {
+    const std::vector<ObjectRow> labels = turning_car();
+    std::vector<ObjectRow> results = labels;
+    results[1].yaw_rate = 0.2;
+    results[2].yaw_rate = 0.23;
+    results[3].yaw_rate = -0.2;
+    const ObjectErrors e = compare_objects(results, {0, 1, 2, 3, 4}, standing_camera(labels));
+    EXPECT_EQ(e.yaw_rates, 3);
+    EXPECT_NEAR(*e.yaw_rate_median_radps, 0.03, 1e-9);
+    EXPECT_NEAR(*e.yaw_rate_mean_radps, (0.0 + 0.03 + 0.4) / 3.0, 1e-9);
+}
+
+TEST(ObjectErrors, RowsWithoutAPublishedYawRateSayNothingOfIt) {
+    const std::vector<ObjectRow> labels = turning_car();
+    const ObjectErrors e = compare_objects(labels, {0, 1, 2, 3, 4}, standing_camera(labels));
+    EXPECT_EQ(e.yaw_rates, 0);
+    EXPECT_FALSE(e.yaw_rate_median_radps.has_value());
+}
+
 TEST(ObjectErrors, FramesThatAreNotLabelledSayNothing) {
     const ObjectErrors e =
         compare_objects({car(1, 1, 100.0, {1, 2, 10})}, {0, 1}, truth_of({car(0, 1, 100.0, {1, 2, 10})}, {0}));

@@ -45,6 +45,7 @@ TEST(Trajectory, AStraightPathOnePercentTooLongHasTheErrorsReckonedByHand) {
     EXPECT_NEAR(*e.ate_rmse_m, 0.01 * std::sqrt(850.0), 1e-12);
     EXPECT_NEAR(*e.ate_rmse_m, 0.29155, 1e-5);
     EXPECT_NEAR(*e.rpe_trans_mean_m, 0.01, 1e-12);
+    EXPECT_NEAR(*e.rpe_trans_rms_m, 0.01, 1e-12);
     EXPECT_NEAR(*e.rpe_rot_mean_deg, 0.0, 1e-12);
     EXPECT_NEAR(*e.path_length_m, 101.0, 1e-9);
     EXPECT_NEAR(*e.truth_path_length_m, 100.0, 1e-9);

@@ -295,8 +295,9 @@ def evaluate(tmp):
         (results_dir / "ego.txt").write_text("".join(ego))
         (results_dir / "frames.txt").write_text("".join(f"{n}\n" for n in frames))
 
-    def go():
-        return run("evaluate", "--results", results_dir, "--layout", "odometry", "--root", root, "--sequence", "00")
+    def go(*more):
+        return run("evaluate", "--results", results_dir, "--layout", "odometry", "--root", root, "--sequence", "00",
+                   *more)
 
     def metrics(what):
         result = go()
@@ -323,6 +324,18 @@ def evaluate(tmp):
     put(straight, [pose(float(n)) for n in kept], kept)
     m = metrics("gap")
     check(m["ate_rmse_m"] < 1e-9 and m["rpe_trans_mean_m"] < 1e-9 and m["ego_frames_compared"] == 91, f"gap: {m}")
+
+    put(straight, [pose(float(n), 0.003 * (n % 2)) for n in range(101)], range(101))
+    others = []
+    for name, rhythm in (("b.txt", 2), ("c.txt", 4)):
+        (tmp / name).write_text("".join(pose(float(n), 0.01 * ((n // rhythm) % 2)) for n in range(101)))
+        others += ["--other", tmp / name]
+    result = go(*others)
+    agreement = json.loads((results_dir / "metrics.json").read_text())["agreement"]
+    check(result.returncode == 0 and len(agreement["rpe_trans_mean_m"]) == 2, f"two other odometries: {result.stderr}")
+    check(abs(agreement["own_error_rms_m"] - 0.003) < 1e-3, f"own part of the error: {agreement}")
+    (tmp / "b.txt").write_text("".join(straight[:100]))
+    refused("another odometry with a row too few", go(*others), "b.txt")
 
     before = contents(results_dir)
     for what, frames in (("doubled", [0, 1, 1]), ("falling", [0, 2, 1])):

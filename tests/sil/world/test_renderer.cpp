@@ -59,16 +59,6 @@ TEST(WorldRenderer, DrawsTheSameFrameTwiceTheSameAndIndependentOfThreads) {
     EXPECT_NE(left1.pixels, left2.pixels);
 }
 
-TEST(WorldRenderer, HasTheSameBytesOnEveryTarget) {
-    Scenario s = find_scenario("street");
-    const Scene scene(s, 1);
-    GreyImage left;
-    GreyImage right;
-    Renderer(scene, small_calibration(s)).render(0, left, right);
-    EXPECT_EQ(hash_of(left), 11172297900096913654ULL);
-    EXPECT_EQ(hash_of(right), 11832682253223012950ULL);
-}
-
 TEST(WorldRenderer, RoadHasTheDisparityOfItsGeometryToATwentiethOfAPixel) {
     Scenario s = quiet_street();
     s.street.sun = 0.8;

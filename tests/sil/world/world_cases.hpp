@@ -9,7 +9,8 @@
 
 namespace semtrack::sil::world {
 
-/// The empty street, standing camera without bumps, no noise, right camera as bright as the left one.
+/// The empty street, standing camera without bumps, no noise, exact rectification, right camera as
+/// bright as the left one.
 inline Scenario quiet_street() {
     Scenario s = find_scenario("empty");
     s.ego = Ego{};
@@ -17,6 +18,7 @@ inline Scenario quiet_street() {
     s.imaging = Imaging{};
     s.detector = DetectorErrors{};
     s.imaging.noise_sigma = 0.0;
+    s.imaging.rectification_px = 0.0;
     return s;
 }
 
@@ -39,11 +41,12 @@ inline Calibration small_calibration(const Scenario& s) {
     return c;
 }
 
-/// FNV-1a of the pixels.
-inline std::uint64_t hash_of(const GreyImage& image) {
+/// FNV-1a of bytes: pixels or text.
+template <class Bytes>
+std::uint64_t hash_of(const Bytes& bytes) {
     std::uint64_t h = 14695981039346656037ULL;
-    for (const std::uint8_t p : image.pixels) {
-        h = (h ^ p) * 1099511628211ULL;
+    for (const auto b : bytes) {
+        h = (h ^ static_cast<std::uint8_t>(b)) * 1099511628211ULL;
     }
     return h;
 }

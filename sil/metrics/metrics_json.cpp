@@ -72,6 +72,7 @@ void add_objects(JsonObject& json, const ObjectErrors& e) {
     json.add("moving_car_steps", std::int64_t{e.motion_steps});
     json.add("moving_car_motion_trans_mean_m", e.motion_trans_mean_m);
     json.add("moving_car_motion_rot_mean_deg", e.motion_rot_mean_deg);
+    json.add("longest_car_track_m", e.longest_track_m);
 }
 
 std::string tracking_text(const TrackingScores& s) {

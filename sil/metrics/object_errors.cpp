@@ -55,6 +55,7 @@ struct Samples {
     std::vector<double> pedestrian_speed;
     std::vector<double> motion_m;
     std::vector<double> motion_deg;
+    std::optional<double> longest_track_m{};
 };
 
 void add_pair(const ObjectRow& label, const ObjectRow& result, const std::optional<TruthMotion>& motion, bool parked,
@@ -103,10 +104,15 @@ public:
         if (truth_ego == truth_.T_f_c0.end() || own_ego == T_f_c0_.end() || time == truth_.time_us.end()) {
             return;
         }
-        const State now{result.id, time->second, truth_ego->second * pose_of(label), own_ego->second * pose_of(result)};
+        State now{result.id, time->second, truth_ego->second * pose_of(label), own_ego->second * pose_of(result), 0.0};
         const auto last = last_.find(label.id);
-        if (last != last_.end() && last->second.result_id == now.result_id && moving &&
-            now.time_us - last->second.time_us <= kMostStep_us) {
+        const bool goes_on = last != last_.end() && last->second.result_id == now.result_id &&
+                             now.time_us - last->second.time_us <= kMostStep_us;
+        if (goes_on) {
+            now.path_m = last->second.path_m + (now.truth.t - last->second.truth.t).norm();
+            s.longest_track_m = std::max(s.longest_track_m.value_or(0.0), now.path_m);
+        }
+        if (goes_on && moving) {
             const Pose truth_step = last->second.truth.inverse() * now.truth;
             const Pose own_step = last->second.own.inverse() * now.own;
             const Pose error = truth_step.inverse() * own_step;
@@ -122,6 +128,7 @@ private:
         std::int64_t time_us;
         Pose truth;
         Pose own;
+        double path_m;  ///< since this result id took over
     };
     const ObjectTruthSet& truth_;
     const std::map<int, Pose>& T_f_c0_;
@@ -144,6 +151,7 @@ void summarise(const Samples& s, ObjectErrors& out) {
     out.motion_steps = static_cast<int>(s.motion_m.size());
     out.motion_trans_mean_m = mean(s.motion_m);
     out.motion_rot_mean_deg = mean(s.motion_deg);
+    out.longest_track_m = s.longest_track_m;
     out.far_position_mean_percent = mean(s.far_percent);
     out.pedestrian_position_mean_percent = mean(s.pedestrian_percent);
     out.pedestrian_speed_median_mps = median(s.pedestrian_speed);

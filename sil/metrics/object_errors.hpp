@@ -37,6 +37,9 @@ struct ObjectErrors {
     /// after the result's own, through the result's ego poses: |translation|, |rotation|.
     std::optional<double> motion_trans_mean_m{};
     std::optional<double> motion_rot_mean_deg{};
+    /// Path of a car, by its labels in the world, over which it kept one id without a gap of more than 0.5 s: the
+    /// longest of all.
+    std::optional<double> longest_track_m{};
 };
 
 /// Pairs by track_matching.hpp. `result_frames`: frames that were processed. T_f_c0: the result's own ego poses, by

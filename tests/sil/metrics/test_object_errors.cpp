@@ -98,6 +98,19 @@ TEST(ObjectErrors, RowsWithoutAPublishedYawRateSayNothingOfIt) {
     EXPECT_FALSE(e.yaw_rate_median_radps.has_value());
 }
 
+TEST(ObjectErrors, TheLongestTrackIsTheLongestPathThatACarKeptItsIdOver) {
+    const std::vector<ObjectRow> labels = turning_car();  // 0.5 m a frame, 2 m in all
+    const ObjectTruthSet truth = standing_camera(labels);
+    const std::map<int, Pose>& ego = truth.T_f_c0;
+    EXPECT_NEAR(*compare_objects(labels, truth.frames, truth, ego).longest_track_m, 2.0, 1e-9);
+    std::vector<ObjectRow> results = labels;
+    results[3].id = results[4].id = 9;
+    EXPECT_NEAR(*compare_objects(results, truth.frames, truth, ego).longest_track_m, 1.0, 1e-9);
+    results[1].id = 8;
+    EXPECT_NEAR(*compare_objects(results, truth.frames, truth, ego).longest_track_m, 0.5, 1e-9);
+    EXPECT_FALSE(compare_objects({}, truth.frames, truth, ego).longest_track_m.has_value());
+}
+
 TEST(ObjectErrors, FramesThatAreNotLabelledSayNothing) {
     const ObjectErrors e =
         compare_objects({car(1, 1, 100.0, {1, 2, 10})}, {0, 1}, truth_of({car(0, 1, 100.0, {1, 2, 10})}, {0}));

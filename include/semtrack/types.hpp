@@ -160,7 +160,7 @@ struct Health {
     std::uint32_t frames_without_right{0};
     std::uint32_t lists_late{0};            ///< lists attached to an earlier frame
     std::uint32_t lists_too_late{0};        ///< older than kMaxDetectionDelay, or of no known frame: dropped
-    std::uint32_t detections_dropped{0};    ///< not finite, inverted, outside the image, or beyond a capacity
+    std::uint32_t detections_dropped{0};    ///< not finite, inverted, outside the image, doubled, or beyond a capacity
     std::uint32_t tracks_dropped{0};        ///< no free slot
     std::uint32_t features_rejected{0};     ///< by RANSAC
     std::uint32_t solver_failures{0};       ///< not one step lowered the cost; the start was kept

@@ -1,6 +1,7 @@
 #include "sil/kitti/drive_files.hpp"
 
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -84,6 +85,43 @@ bool parse_stamp(std::string_view date, std::string_view clock, std::int64_t& ti
     return true;
 }
 
+/// A decimal number of seconds as microseconds, rounded half up, exact: as a double, 2^33 s are known to 2 us only.
+/// `text` is a number that TextFile::number has accepted; below 9e12 s.
+std::int64_t microseconds(std::string_view text) {
+    constexpr std::int64_t kMostDigits = 1000000000000000000;  // 18 digits: further ones are below a microsecond
+    const bool negative = text.front() == '-';
+    std::int64_t digits = 0;
+    int exponent = 6;
+    bool fraction = false;
+    for (std::size_t i = negative ? 1 : 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '.') {
+            fraction = true;
+        } else if (c == 'e' || c == 'E') {
+            int power = 0;
+            const char* const first = text.data() + i + (text[i + 1] == '+' ? 2 : 1);
+            (void)std::from_chars(first, text.data() + text.size(), power);
+            exponent += power;
+            break;
+        } else if (digits < kMostDigits / 10) {
+            digits = 10 * digits + (c - '0');
+            exponent -= fraction ? 1 : 0;
+        } else {
+            exponent += fraction ? 0 : 1;
+        }
+    }
+    digits = negative ? -digits : digits;
+    for (; exponent > 0 && digits != 0; --exponent) {
+        digits *= 10;
+    }
+    std::int64_t divisor = 1;
+    for (; exponent < 0 && divisor < kMostDigits; ++exponent) {
+        divisor *= 10;
+    }
+    const std::int64_t whole = digits / divisor - (digits % divisor < 0 ? 1 : 0);
+    return whole + (2 * (digits - whole * divisor) >= divisor ? 1 : 0);
+}
+
 }  // namespace
 
 std::vector<std::int64_t> read_timestamps(const std::filesystem::path& path) {
@@ -112,7 +150,7 @@ std::vector<std::int64_t> read_times(const std::filesystem::path& path) {
         if (std::fabs(seconds) > 9e12) {
             file.refuse(row, "not a time in seconds");
         }
-        const auto time_us = static_cast<std::int64_t>(std::floor(seconds * 1e6 + 0.5));
+        const std::int64_t time_us = microseconds(row.words[0]);
         if (!times.empty() && time_us <= times.back()) {
             file.refuse(row, "time does not go forward");
         }

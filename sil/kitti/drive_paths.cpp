@@ -34,6 +34,8 @@ DrivePaths raw_paths(const fs::path& root, const std::string& id) {
     p.tracklets = drive / "tracklet_labels.xml";
     p.cam_to_cam = date / "calib_cam_to_cam.txt";
     p.velo_to_cam = date / "calib_velo_to_cam.txt";
+    p.oxts = drive / "oxts" / "data";
+    p.imu_to_velo = date / "calib_imu_to_velo.txt";
     p.digits = 10;
     p.stamps = true;
     return p;
@@ -75,10 +77,9 @@ DrivePaths tracking_paths(const fs::path& root, const std::string& id) {
 }
 
 /// -1: not ours.
-int number_of(const std::string& name, std::size_t digits) {
+int number_of(const std::string& name, std::size_t digits, const std::string& ending) {
     constexpr std::size_t kFitsInt = 9;
-    constexpr const char* kSuffix = ".png";
-    if (name.size() != digits + 4 || name.compare(digits, 4, kSuffix) != 0 ||
+    if (name.size() != digits + ending.size() || name.compare(digits, ending.size(), ending) != 0 ||
         !std::all_of(name.begin(), name.begin() + static_cast<std::ptrdiff_t>(digits),
                      [](char c) { return c >= '0' && c <= '9'; })) {
         return -1;
@@ -113,6 +114,10 @@ DrivePaths drive_paths(const std::string& layout, const fs::path& root, const st
 }
 
 std::set<int> image_numbers(const fs::path& folder, std::size_t digits) {
+    return numbered_files(folder, digits, ".png");
+}
+
+std::set<int> numbered_files(const fs::path& folder, std::size_t digits, const std::string& ending) {
     std::error_code error;
     fs::directory_iterator it(folder, error);
     if (error) {
@@ -120,7 +125,7 @@ std::set<int> image_numbers(const fs::path& folder, std::size_t digits) {
     }
     std::set<int> out;
     for (const fs::directory_entry& entry : it) {
-        const int number = number_of(entry.path().filename().string(), digits);
+        const int number = number_of(entry.path().filename().string(), digits, ending);
         if (number >= 0) {
             out.insert(number);
         }

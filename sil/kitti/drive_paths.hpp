@@ -23,6 +23,8 @@ struct DrivePaths {
     std::filesystem::path tracklets;   ///< labels of raw drives, when `labels` does not exist
     std::filesystem::path cam_to_cam;  ///< of the tracklets
     std::filesystem::path velo_to_cam;
+    std::filesystem::path oxts;         ///< GPS and IMU: truth of raw drives, when `poses` does not exist
+    std::filesystem::path imu_to_velo;  ///< of them
     int left_camera{0};
     int right_camera{1};
     int detections_camera{0};
@@ -43,6 +45,9 @@ private:
 /// Numbers of the images in a folder: names of exactly so many digits and .png; any other file is foreign.
 /// InputError: no such folder.
 [[nodiscard]] std::set<int> image_numbers(const std::filesystem::path& folder, std::size_t digits);
+/// The same for another ending.
+[[nodiscard]] std::set<int> numbered_files(const std::filesystem::path& folder, std::size_t digits,
+                                           const std::string& ending);
 
 }  // namespace semtrack::sil
 

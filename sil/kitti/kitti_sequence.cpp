@@ -8,6 +8,8 @@
 #include "sil/kitti/drive_files.hpp"
 #include "sil/kitti/drive_paths.hpp"
 #include "sil/kitti/label_detections.hpp"
+#include "sil/kitti/mount_files.hpp"
+#include "sil/kitti/oxts_files.hpp"
 #include "sil/kitti/png_image.hpp"
 #include "sil/kitti/tracklet_file.hpp"
 
@@ -39,6 +41,9 @@ public:
         cameras_ = read_calibration(calibration, paths_.left_camera, paths_.right_camera, detections);
         if (is_there(paths_.poses)) {
             truth_ = poses_of(paths_, paths_.poses);
+        } else if (is_there(paths_.oxts)) {
+            const Pose T_c0_velo = read_velodyne_mount(paths_.cam_to_cam, paths_.velo_to_cam);
+            truth_ = read_oxts(paths_.oxts, T_c0_velo * read_sensor_mount(paths_.imu_to_velo));
         }
         if (options.images) {
             find_images();

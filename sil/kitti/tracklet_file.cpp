@@ -141,34 +141,6 @@ bool add_box(Label& l, const DriveCameras& cameras) {
 
 }  // namespace
 
-Pose read_velodyne_mount(const std::filesystem::path& cam_to_cam, const std::filesystem::path& velo_to_cam) {
-    const auto row_of = [](const TextFile& file, const char* name, std::size_t values) -> const TextRow& {
-        for (const TextRow& row : file.rows()) {
-            if (row.words[0] == name) {
-                file.require_words(row, values + 1, values + 1);
-                return row;
-            }
-        }
-        file.refuse_end(std::string("no row ") + name);
-    };
-    const TextFile cameras(cam_to_cam, false);
-    const TextFile mount(velo_to_cam, false);
-    const TextRow& rectify = row_of(cameras, "R_rect_00:", 9);
-    const TextRow& rotate = row_of(mount, "R:", 9);
-    const TextRow& move = row_of(mount, "T:", 3);
-    Pose R_rect;
-    Pose T_cam_velo;
-    for (int i = 0; i < 9; ++i) {
-        const auto word = static_cast<std::size_t>(i + 1);
-        R_rect.R(i / 3, i % 3) = cameras.number(rectify, word);
-        T_cam_velo.R(i / 3, i % 3) = mount.number(rotate, word);
-    }
-    for (int i = 0; i < 3; ++i) {
-        T_cam_velo.t(i) = mount.number(move, static_cast<std::size_t>(i + 1));
-    }
-    return R_rect * T_cam_velo;
-}
-
 std::vector<Label> read_tracklets(const std::filesystem::path& path, const Pose& T_c0_velo,
                                   const DriveCameras& cameras) {
     TagReader file(path);

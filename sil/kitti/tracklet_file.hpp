@@ -10,11 +10,6 @@
 
 namespace semtrack::sil {
 
-/// T_c0_velo: R_rect_00 (calib_cam_to_cam.txt) times the rows R and T of calib_velo_to_cam.txt. InputError when one of
-/// the rows is missing.
-[[nodiscard]] Pose read_velodyne_mount(const std::filesystem::path& cam_to_cam,
-                                       const std::filesystem::path& velo_to_cam);
-
 /// One label per tracklet and frame whose box overlaps the image of the label camera; `cameras` must have its image
 /// size. The 2D box is the projection, clipped, `truncated` the share of it outside the image; ids count the tracklets
 /// from 0. InputError by line for a number that is none, tags that do not match, or a tracklet without sizes.

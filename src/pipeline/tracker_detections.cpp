@@ -7,6 +7,7 @@
 #include "math/trig.hpp"
 #include "model/class_prior.hpp"
 #include "pipeline/tracker_core.hpp"
+#include "pipeline/usable_detections.hpp"
 
 namespace semtrack {
 
@@ -65,15 +66,6 @@ std::array<double, 4> edge_sigmas(const DetectionList& list, int item, int width
         out[kBottom] = 0.0;
     }
     return out;
-}
-
-bool usable(const Detection& d, int width, int height, Box2d& clipped) {
-    const Box2d& b = d.box;
-    if (!std::isfinite(b.left) || !std::isfinite(b.top) || !std::isfinite(b.right) || !std::isfinite(b.bottom) ||
-        !std::isfinite(d.score) || !(b.right > b.left) || !(b.bottom > b.top)) {
-        return false;
-    }
-    return clip_box(b, width, height, clipped) && clipped.right > clipped.left && clipped.bottom > clipped.top;
 }
 
 /// Steps between two horizontal viewpoint classes on the circle of eight.
@@ -171,15 +163,7 @@ void TrackerCore::take_lists(const Input& input) {
 
 void TrackerCore::take_list(const DetectionList& list, std::uint32_t frame) {
     begin(Stage::kAssociate);
-    usable_.time_us = list.time_us;
-    usable_.items.clear();
-    for (const Detection& detection : list.items) {
-        Detection d = detection;
-        const bool ok = usable(detection, calibration_.width, calibration_.height, d.box);
-        if (!ok || !usable_.items.try_push_back(d)) {
-            ++health_.detections_dropped;
-        }
-    }
+    health_.detections_dropped += take_usable(list, calibration_.width, calibration_.height, usable_);
     candidates_.clear();
     boxes_.clear();
     for (int s = 0; s < kMaxObjects; ++s) {

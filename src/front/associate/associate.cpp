@@ -15,11 +15,7 @@ constexpr double kOtherClass = 0.85;  // car and van look alike: a step of class
 constexpr double kForbidden = 1e6;
 
 double class_factor(ObjectClass a, ObjectClass b) {
-    if (a == b) {
-        return 1.0;
-    }
-    const auto is_person = [](ObjectClass c) { return c == ObjectClass::kPedestrian || c == ObjectClass::kCyclist; };
-    return is_person(a) == is_person(b) ? kOtherClass : 0.0;
+    return a == b ? 1.0 : may_be_one(a, b) ? kOtherClass : 0.0;
 }
 
 double ratio(double a, double b) {
@@ -27,6 +23,11 @@ double ratio(double a, double b) {
 }
 
 }  // namespace
+
+bool may_be_one(ObjectClass a, ObjectClass b) {
+    const auto is_person = [](ObjectClass c) { return c == ObjectClass::kPedestrian || c == ObjectClass::kCyclist; };
+    return is_person(a) == is_person(b);
+}
 
 double box_similarity(const TrackBox& track, const Detection& detection) {
     const Box2d& a = track.box;

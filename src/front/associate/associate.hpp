@@ -25,6 +25,9 @@ struct Assignment {
 
 inline constexpr double kLostSimilarity = 0.3;
 
+/// Detectors confuse classes: vehicles with vehicles, people with people.
+[[nodiscard]] bool may_be_one(ObjectClass a, ObjectClass b);
+
 /// 0..1: class compatibility x (centre distance relative to the boxes' size, and ratio of widths and heights).
 [[nodiscard]] double box_similarity(const TrackBox& track, const Detection& detection);
 

@@ -85,6 +85,14 @@ TEST_F(DriveFiles, SecondsBecomeMicroseconds) {
     EXPECT_REFUSED(read_times(write("times.txt", "0\n\n1\n")), "times.txt:2: ");
 }
 
+TEST_F(DriveFiles, SecondsAreExactWhateverTheirSizeAndForm) {
+    EXPECT_EQ(read_times(write("times.txt", "-2.5\n-1e-6\n0.0000004\n.0000005\n2e-6\n3.\n4E+0\n")),
+              (Times{-2500000, -1, 0, 1, 2, 3000000, 4000000}));
+    EXPECT_EQ(read_times(write("times.txt", "4294967295.9\n4294967296.0\n8589934591.100001\n8589934591.10000249999999\n")),
+              (Times{4294967295900000, 4294967296000000, 8589934591100001, 8589934591100002}));
+    EXPECT_EQ(read_times(write("times.txt", "8.99e12\n")), (Times{8990000000000000000}));
+}
+
 TEST_F(DriveFiles, FrameListsMustGrow) {
     EXPECT_EQ(read_frame_list(write("frames.txt", "19\n20\n25\n")), (std::vector<int>{19, 20, 25}));
     EXPECT_REFUSED(read_frame_list(write("frames.txt", "19\n20\n20\n")), "frames.txt:3: ");

@@ -1,5 +1,6 @@
 #include "sil/kitti/drive_files.hpp"
 #include "sil/kitti/label_detections.hpp"
+#include "sil/kitti/mount_files.hpp"
 #include "sil/kitti/temp_files.hpp"
 #include "sil/kitti/tracklet_file.hpp"
 

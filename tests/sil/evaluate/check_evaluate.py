@@ -10,19 +10,12 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from checks import check, finish  # noqa: E402
+
 PROGRAM = sys.argv[1]
 POSE = "1 0 0 0 0 1 0 0 0 0 1 0"
 CALIBRATION = "\n".join(f"P{i}: 721.5 0 609.5 {-721.5 * 0.54 * (i % 2):.6f} 0 721.5 172.9 0 0 0 1 0" for i in range(4))
-failures = 0
-checks = 0
-
-
-def check(condition, what):
-    global failures, checks
-    checks += 1
-    if not condition:
-        failures += 1
-        print("FAILED:", what)
 
 
 def box2d(x, z):
@@ -154,8 +147,7 @@ def check_overlap(folder):
 def main():
     with tempfile.TemporaryDirectory() as root:
         {"objects": check_objects, "overlap": check_overlap}[sys.argv[2]](Folder(root))
-    print(f"{checks} checks, {failures} failed")
-    return 1 if failures or checks == 0 else 0
+    return finish()
 
 
 if __name__ == "__main__":

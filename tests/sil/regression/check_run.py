@@ -7,16 +7,11 @@ import sys
 import tempfile
 import xml.etree.ElementTree
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from checks import check, finish  # noqa: E402
+
 PROGRAM = sys.argv[1]
 REPLAY = {"layout": "world", "sequence": "empty", "last": 3}
-failures = 0
-
-
-def check(condition, what):
-    global failures
-    if not condition:
-        failures += 1
-        print("FAILED:", what)
 
 
 def run(folder, cases, *more):
@@ -57,8 +52,7 @@ def main():
         check(result.returncode == 1 and "ego.txt: frame 2" in result.stdout, f"the planted difference: {result.stdout}")
 
         check(run(folder, [{"name": "x"}])[0].returncode == 2, "a case without replay: status 2")
-    print(f"{failures} failed")
-    return 1 if failures else 0
+    return finish()
 
 
 if __name__ == "__main__":

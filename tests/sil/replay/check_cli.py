@@ -11,34 +11,17 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from checks import check, finish, refused  # noqa: E402
+
 PROGRAM = sys.argv[1]
 FRAMES = 4
 FILES = ["can.log", "ego.csv", "ego.txt", "frames.txt", "list.csv", "metrics.json", "objects.txt", "states.csv",
          "timing.csv"]
-failures = 0
-checks = 0
-
-
-def check(condition, what):
-    global failures, checks
-    checks += 1
-    if not condition:
-        failures += 1
-        print("FAILED:", what)
-
 
 def run(*arguments, env=None):
     return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
                           env={**os.environ, **(env or {})}, timeout=250, check=False)
-
-
-def refused(what, result, *names):
-    """Status 2, one line on stderr that holds the names."""
-    lines = result.stderr.splitlines()
-    check(result.returncode == 2, f"{what}: status {result.returncode} instead of 2; {result.stderr!r}")
-    check(len(lines) == 1, f"{what}: {len(lines)} lines on stderr: {result.stderr!r}")
-    for name in names:
-        check(name in result.stderr, f"{what}: {name!r} is not in {result.stderr!r}")
 
 
 def render(layout, folder, frames=FRAMES):
@@ -123,7 +106,7 @@ def bad_input(tmp):
         drive = Drive(base, tmp / name)
         spoil(drive)
         out = tmp / (name + "_out")
-        refused(name, drive.replay(out, *more), *names)
+        refused(drive.replay(out, *more), name, *names)
         check(not out.exists(), f"{name}: the output folder was left behind")
         shutil.rmtree(drive.folder)
 
@@ -170,7 +153,7 @@ def bad_usage(tmp):
     out = tmp / "out"
 
     def case(name, *arguments, names=()):
-        refused(name, drive.replay(out, *arguments), *names)
+        refused(drive.replay(out, *arguments), name, *names)
         check(not out.exists(), f"{name}: the output folder was left behind")
 
     case("first above last", "--first", 3, "--last", 1, names=("--first 3",))
@@ -193,21 +176,21 @@ def bad_usage(tmp):
     case("camera height that is no number", "--camera-height", "nan", names=("--camera-height",))
     case("unknown option", "--speed", "3")
     case("camera 1 of the detections", "--detections-camera", "1", names=("--detections-camera",))
-    refused("no command", run())
-    refused("unknown command", run("drive"))
-    refused("unknown layout", run("replay", "--layout", "nuscenes", "--sequence", "1", "--out", out), "--layout")
-    refused("no root", run("replay", "--layout", "raw", "--sequence", base["id"], "--out", out), "--root")
-    refused("unknown sequence", run("replay", "--layout", "raw", "--root", drive.folder, "--sequence",
-                                    "2026_01_01_drive_0077", "--out", out), "2026_01_01_drive_0077")
-    refused("unknown scenario", run("replay", "--layout", "world", "--sequence", "moon", "--out", out), "moon")
-    refused("unknown scenario to render", run("render", "--scenario", "moon", "--layout", "raw", "--out", out), "moon")
+    refused(run(), "no command")
+    refused(run("drive"), "unknown command")
+    refused(run("replay", "--layout", "nuscenes", "--sequence", "1", "--out", out), "unknown layout", "--layout")
+    refused(run("replay", "--layout", "raw", "--sequence", base["id"], "--out", out), "no root", "--root")
+    refused(run("replay", "--layout", "raw", "--root", drive.folder, "--sequence",
+                "2026_01_01_drive_0077", "--out", out), "unknown sequence", "2026_01_01_drive_0077")
+    refused(run("replay", "--layout", "world", "--sequence", "moon", "--out", out), "unknown scenario", "moon")
+    refused(run("render", "--scenario", "moon", "--layout", "raw", "--out", out), "unknown scenario to render", "moon")
     check(not out.exists(), "the output folder was left behind")
 
     file_in_the_way = tmp / "file"
     file_in_the_way.write_text("mine")
-    refused("a file as output folder", drive.replay(file_in_the_way), "file")
-    refused("an output folder below a file", drive.replay(file_in_the_way / "out"), "file")
-    refused("an output folder in /proc", drive.replay("/proc/semtrack_out"), "/proc/semtrack_out")
+    refused(drive.replay(file_in_the_way), "a file as output folder", "file")
+    refused(drive.replay(file_in_the_way / "out"), "an output folder below a file", "file")
+    refused(drive.replay("/proc/semtrack_out"), "an output folder in /proc", "/proc/semtrack_out")
     check(file_in_the_way.read_text() == "mine", "the file in the way was changed")
 
     help_text = run("replay", "--help")
@@ -249,7 +232,7 @@ def results(tmp):
     before = contents(out)
     spoiled = Drive(base, tmp / "spoiled")
     spoiled.right(3).write_bytes(b"no png")
-    refused("a broken image at the end", spoiled.replay(out), "0000000003.png")
+    refused(spoiled.replay(out), "a broken image at the end", "0000000003.png")
     check(contents(out) == before, "a failed run changed old results")
     check(not any(p.name.startswith(".") for p in out.iterdir()), "a failed run left its working folder")
     check(drive.replay(out).returncode == 0, "second run")
@@ -335,29 +318,29 @@ def evaluate(tmp):
     check(result.returncode == 0 and len(agreement["rpe_trans_mean_m"]) == 2, f"two other odometries: {result.stderr}")
     check(abs(agreement["own_error_rms_m"] - 0.003) < 1e-3, f"own part of the error: {agreement}")
     (tmp / "b.txt").write_text("".join(straight[:100]))
-    refused("another odometry with a row too few", go(*others), "b.txt")
+    refused(go(*others), "another odometry with a row too few", "b.txt")
 
     before = contents(results_dir)
     for what, frames in (("doubled", [0, 1, 1]), ("falling", [0, 2, 1])):
         put(straight, straight[:3], frames)
-        refused(what, go(), "frames.txt:3")
+        refused(go(), what, "frames.txt:3")
     put(straight, straight[:3], [0, 1])
-    refused("more poses than frames", go(), "ego.txt")
+    refused(go(), "more poses than frames", "ego.txt")
     put(straight, straight[:2], [0, 1, 2])
-    refused("fewer poses than frames", go(), "ego.txt")
+    refused(go(), "fewer poses than frames", "ego.txt")
     check((results_dir / "metrics.json").read_bytes() == before["metrics.json"], "a refusal left metrics.json alone")
     put(straight, straight[:2], [0, 1])
     good = "0 1 Car 0 0 0 100 100 150 140 1.5 1.6 3.9 1 1.6 20 0 0.9 0\n"
     (results_dir / "objects.txt").write_text(good + good)
-    refused("the same frame and id twice", go(), "objects.txt:2")
+    refused(go(), "the same frame and id twice", "objects.txt:2")
     (results_dir / "objects.txt").write_text(good.replace("3.9", "-3.9"))
-    refused("negative length", go(), "objects.txt:1")
+    refused(go(), "negative length", "objects.txt:1")
     (results_dir / "objects.txt").write_text(good)
     check(go().returncode == 0, "a good objects.txt")
     (results_dir / "frames.txt").unlink()
-    refused("no frames.txt", go(), "frames.txt")
-    refused("no results", run("evaluate", "--results", tmp / "nowhere", "--layout", "odometry", "--root", root,
-                              "--sequence", "00"), "nowhere")
+    refused(go(), "no frames.txt", "frames.txt")
+    refused(run("evaluate", "--results", tmp / "nowhere", "--layout", "odometry", "--root", root,
+                "--sequence", "00"), "no results", "nowhere")
 
 
 def repeat(tmp):
@@ -401,8 +384,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         {"bad_input": bad_input, "bad_usage": bad_usage, "results": results, "evaluate": evaluate,
          "repeat": repeat}[sys.argv[2]](pathlib.Path(folder))
-    print(f"{checks} checks, {failures} failed")
-    return 1 if failures or checks == 0 else 0
+    return finish()
 
 
 if __name__ == "__main__":

@@ -6,32 +6,18 @@ import pathlib
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from checks import check, finish, refused  # noqa: E402
 from rig import CAMERA_HEIGHT_M, FRAME_S, SIZE, STANDING, Rig, angle, detection, objects, table, visible_faces
 
 PROGRAM = sys.argv[1]
 CARS = [(-4.0, 10.0, -1.5), (3.5, 15.0, -1.6), (-5.0, 22.0, 1.5), (4.0, 30.0, -1.5), (0.5, 40.0, 1.65)]  # x, z, ry
 FRAMES = 20
-failures = 0
-checks = 0
-
-
-def check(condition, what):
-    global failures, checks
-    checks += 1
-    if not condition:
-        failures += 1
-        print("FAILED:", what)
 
 
 def done(result, what):
     check(result.returncode == 0, f"{what}: status {result.returncode}: {result.stderr}")
     return result.returncode == 0
-
-
-def refused(result, what, *names):
-    check(result.returncode == 2 and len(result.stderr.splitlines()) == 1, f"{what}: {result.returncode} {result.stderr!r}")
-    for name in names:
-        check(name in result.stderr, f"{what}: {name!r} is not in {result.stderr!r}")
 
 
 def drive_past(step_m, camera=0):
@@ -231,8 +217,7 @@ def main():
              "duplicates": duplicates, "calibration": calibration}
     with tempfile.TemporaryDirectory() as folder:
         parts[sys.argv[2]](pathlib.Path(folder))
-    print(f"{checks} checks, {failures} failed")
-    return 1 if failures or checks < 10 else 0
+    return finish()
 
 
 if __name__ == "__main__":

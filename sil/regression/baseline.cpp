@@ -158,6 +158,8 @@ std::string value_text(const Json& value) {
 
 void compare_metrics(const Json& now, const Json& before, const std::vector<Tolerance>& tolerances,
                      std::vector<std::string>& out) {
+    constexpr int kMostLines = 8;  // one change of the estimate moves a hundred metrics
+    int moved = 0;
     for (const auto& [metric, old_value] : before.items()) {
         const auto found = now.find(metric);
         const Json value = found == now.end() ? Json() : *found;
@@ -170,10 +172,14 @@ void compare_metrics(const Json& now, const Json& before, const std::vector<Tole
         }
         const bool near = value.is_number() && old_value.is_number() &&
                           std::fabs(value.get<double>() - old_value.get<double>()) <= allowed;
-        if (!near) {
+        moved += near ? 0 : 1;
+        if (!near && moved <= kMostLines) {
             out.push_back("metric " + metric + ": " + value_text(value) + ", baseline " + value_text(old_value) +
                           (allowed > 0.0 ? ", tolerance " + number_text(allowed) : std::string()));
         }
+    }
+    if (moved > kMostLines) {
+        out.push_back("and " + std::to_string(moved - kMostLines) + " more metrics");
     }
 }
 

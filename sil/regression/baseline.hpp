@@ -17,8 +17,8 @@ namespace semtrack::sil {
 void write_baseline(const std::filesystem::path& results, const std::filesystem::path& baseline);
 
 /// Complaints, empty when all is as before: the first row that differs, by file, frame and object; metrics that moved
-/// beyond their tolerance (0 where none is given; run counts too). Golden::kMetrics looks at the metrics only.
-/// Without a baseline: one complaint.
+/// beyond their tolerance (0 where none is given; run counts too; the first eight by name). Golden::kMetrics looks at
+/// the metrics only. Without a baseline: one complaint.
 [[nodiscard]] std::vector<std::string> compare_with_baseline(const std::filesystem::path& results,
                                                              const std::filesystem::path& baseline, Golden golden,
                                                              const std::vector<Tolerance>& tolerances);

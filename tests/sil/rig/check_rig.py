@@ -11,7 +11,12 @@ from checks import check, finish, refused  # noqa: E402
 from rig import CAMERA_HEIGHT_M, FRAME_S, SIZE, STANDING, Rig, angle, detection, objects, table, visible_faces
 
 PROGRAM = sys.argv[1]
-CARS = [(-4.0, 10.0, -1.5), (3.5, 15.0, -1.6), (-5.0, 22.0, 1.5), (4.0, 30.0, -1.5), (0.5, 40.0, 1.65)]  # x, z, ry
+CARS = [(-4.0, 10.0, -1.5), (3.5, 15.0, -1.6), (-6.0, 22.0, 1.5), (6.0, 30.0, 0.3), (0.5, 40.0, 1.65)]  # x, z, ry
+X_LIMIT_M = 0.02
+# Short of that today, by z, when the ego stands: the size prior is 0.7 % off (depth, so x far to the side), and an
+# oblique car has two headings with boxes of the same width (30 degrees off). The figure may not grow, and a car that is
+# right by now fails the check, so that the row goes.
+SHORT_M = {22.0: 0.021, 30.0: 0.040}
 FRAMES = 20
 
 
@@ -43,8 +48,13 @@ def which_camera(tmp):
                 seen = [c for c in CARS if c[1] - moved > 5.0]
                 check(len(last) == len(seen), f"{what}: {len(last)} objects instead of {len(seen)}")
                 for o in last:
-                    x, _, _ = min(seen, key=lambda c, o=o: math.dist((c[0], c[1] - moved), (o["x"], o["z"])))
-                    check(abs(o["x"] - x) <= 0.02, f"{what}: x {o['x']} instead of {x}")
+                    x, z, _ = min(seen, key=lambda c, o=o: math.dist((c[0], c[1] - moved), (o["x"], o["z"])))
+                    off = abs(o["x"] - x)
+                    short = SHORT_M.get(z) if step_m == 0.0 else None
+                    check(off <= (short or X_LIMIT_M), f"{what}: x {o['x']} instead of {x}")
+                    if short:
+                        check(off > X_LIMIT_M, f"{what}: the car at {z} m is right by now: {off}")
+                        print(f"short: {what}: x is {off:.4f} m off at {z} m, wanted {X_LIMIT_M}")
                     off = angle(o["alpha"] - (o["rotation_y"] - math.atan2(o["x"], o["z"])))
                     check(abs(off) < 1e-12, f"{what}: alpha is off by {off}")
 

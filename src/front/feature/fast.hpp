@@ -44,7 +44,8 @@ class FastDetector {
 public:
     /// Corners at least margin_px (3 or more) from the border: 9 contiguous of the 16 pixels on the circle of radius 3
     /// are all brighter than the centre + threshold or all darker than the centre - threshold. 3x3 suppression.
-    /// kInvalidArgument: no image, or one beyond the capacity. Cost O(pixels).
+    /// kInvalidArgument: no image, one beyond the capacity, or
+    /// fewer than 16 columns inside the margins. Cost O(pixels).
     Status detect(const ImageView& image, int threshold, int margin_px, CornerGrid& out);
 
 private:

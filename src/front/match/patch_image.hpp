@@ -4,8 +4,10 @@
 #define SEMTRACK_FRONT_MATCH_PATCH_IMAGE_HPP
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
+#include "math/lanes.hpp"
 #include "semtrack/capacity.hpp"
 #include "semtrack/image_view.hpp"
 
@@ -16,18 +18,22 @@ public:
     static constexpr int kHalfWidth = kMaxImageWidth / 2;
     static constexpr int kHalfHeight = kMaxImageHeight / 2;
 
-    /// 2x2 averages minus their mean over 9x9, about 128, clamped to 8 bits.
+    static constexpr int kMinSide_px = 32;  ///< of an image that build() takes
+
+    /// 2x2 averages minus their mean over 9x9 (borders repeated), about 128, clamped to 8 bits.
     void build(const ImageView& image);
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
     [[nodiscard]] const std::uint8_t* row(int y) const { return flat_.data() + y * kHalfWidth; }
 
 private:
+    void halve(const ImageView& image);
+    void flatten_row(int y);
     int width_{0};
     int height_{0};
     std::array<std::uint8_t, static_cast<std::size_t>(kHalfWidth) * kHalfHeight> half_{};
     std::array<std::uint8_t, static_cast<std::size_t>(kHalfWidth) * kHalfHeight> flat_{};
-    std::array<std::uint16_t, static_cast<std::size_t>(kHalfWidth)> column_{};
+    std::array<std::int16_t, static_cast<std::size_t>(kHalfWidth) + 16> column_{};  // sums over 9 rows, with borders
 };
 
 inline constexpr int kCoarse = 8;  ///< side of a coarse patch, half-size px
@@ -52,8 +58,30 @@ using CoarsePatch = std::array<std::uint8_t, static_cast<std::size_t>(kCoarse) *
     return offset < -0.5F ? -0.5F : offset > 0.5F ? 0.5F : offset;
 }
 void copy_coarse(const PatchImage& image, int x, int y, CoarsePatch& out);
-/// Sum of absolute differences at a corner that is inside.
-[[nodiscard]] int coarse_distance(const CoarsePatch& patch, const PatchImage& image, int x, int y);
+
+/// A coarse patch ready to be compared with many places.
+class CoarseTemplate {
+public:
+    explicit CoarseTemplate(const CoarsePatch& patch) {
+        for (std::size_t k = 0; k < kPairs; ++k) {
+            rows_[k] = lanes::load(patch.data() + 2 * kCoarse * k);
+        }
+    }
+    /// Sum of absolute differences at a corner that is inside.
+    [[nodiscard]] int distance(const PatchImage& image, int x, int y) const {
+        constexpr std::ptrdiff_t kStride = PatchImage::kHalfWidth;
+        const std::uint8_t* p = image.row(y) + x;
+        lanes::SadSum sum;
+        for (std::size_t k = 0; k < kPairs; ++k, p += 2 * kStride) {
+            sum.add(rows_[k], lanes::load_halves(p, p + kStride));
+        }
+        return sum.total();
+    }
+
+private:
+    static constexpr std::size_t kPairs = kCoarse / 2;
+    lanes::U8x16 rows_[kPairs];  // two rows each
+};
 
 }  // namespace semtrack
 

@@ -80,6 +80,7 @@ double PatchMatcher::owner_depth(const MatcherInput& in, int owner) {
 }
 
 bool PatchMatcher::search(const Appearance& a, float u, float v, int radius, Found& found) const {
+    const CoarseTemplate patch(a.coarse);
     const int x0 = static_cast<int>((u - a.coarse_du) * 0.5F + 0.5F);
     const int y0 = static_cast<int>((v - a.coarse_dv) * 0.5F + 0.5F);
     int best = kMaxCoarseDistance;
@@ -91,7 +92,7 @@ bool PatchMatcher::search(const Appearance& a, float u, float v, int radius, Fou
             if (!coarse_inside(left_half_, x, y)) {
                 continue;
             }
-            const int d = coarse_distance(a.coarse, left_half_, x, y);
+            const int d = patch.distance(left_half_, x, y);
             if (d < best) {
                 best = d;
                 best_x = x;
@@ -105,7 +106,7 @@ bool PatchMatcher::search(const Appearance& a, float u, float v, int radius, Fou
     }
     const auto around = [&](int dx, int dy) {
         return coarse_inside(left_half_, best_x + dx, best_y + dy)
-                   ? coarse_distance(a.coarse, left_half_, best_x + dx, best_y + dy)
+                   ? patch.distance(left_half_, best_x + dx, best_y + dy)
                    : best;
     };
     found.u = 2.0F * (static_cast<float>(best_x) + parabola_offset(around(-1, 0), best, around(1, 0))) + a.coarse_du;
@@ -273,7 +274,8 @@ void PatchMatcher::emit(int owner, int s, FrameFeatures& out) {
 Status PatchMatcher::process(const MatcherInput& in, FrameFeatures& out) {
     out.clear();
     if (in.left.empty() || in.mask_left == nullptr || in.priors == nullptr || in.calibration == nullptr ||
-        in.left.width > kMaxImageWidth || in.left.height > kMaxImageHeight || in.mask_left->width != in.left.width ||
+        in.left.width > kMaxImageWidth || in.left.height > kMaxImageHeight ||
+        in.left.width < PatchImage::kMinSide_px || in.left.height < PatchImage::kMinSide_px || in.mask_left->width != in.left.width ||
         in.mask_left->height != in.left.height ||
         (!in.right.empty() && (in.right.width != in.left.width || in.right.height != in.left.height))) {
         return Status::kInvalidArgument;

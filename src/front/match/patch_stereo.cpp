@@ -23,8 +23,9 @@ constexpr float kMaxSigma_px = 2.0F;
 
 }  // namespace
 
-bool PatchMatcher::search_row(const CoarsePatch& patch, int y, int from, int to, bool unique, int& best_x,
+bool PatchMatcher::search_row(const CoarsePatch& coarse, int y, int from, int to, bool unique, int& best_x,
                               float& offset) const {
+    const CoarseTemplate patch(coarse);
     int best = kMaxDistance;
     int best_row = y;
     int second = 1 << 30;
@@ -35,7 +36,7 @@ bool PatchMatcher::search_row(const CoarsePatch& patch, int y, int from, int to,
             if (!coarse_inside(right_half_, x, row)) {
                 continue;
             }
-            const int d = coarse_distance(patch, right_half_, x, row);
+            const int d = patch.distance(right_half_, x, row);
             if (d < best) {
                 if (x - previous_best_x > kUniqueApart || previous_best_x - x > kUniqueApart) {
                     second = best;
@@ -58,7 +59,7 @@ bool PatchMatcher::search_row(const CoarsePatch& patch, int y, int from, int to,
     }
     const auto beside = [&](int dx) {
         return coarse_inside(right_half_, best_x + dx, best_row)
-                   ? coarse_distance(patch, right_half_, best_x + dx, best_row)
+                   ? patch.distance(right_half_, best_x + dx, best_row)
                    : best;
     };
     offset = parabola_offset(beside(-1), best, beside(1));
@@ -67,18 +68,19 @@ bool PatchMatcher::search_row(const CoarsePatch& patch, int y, int from, int to,
 
 // The match of the match is where it started.
 bool PatchMatcher::search_back(int x_right, int y, int from, int to, int x_left) const {
-    CoarsePatch patch;
+    CoarsePatch coarse;
     if (!coarse_inside(right_half_, x_right, y)) {
         return false;
     }
-    copy_coarse(right_half_, x_right, y, patch);
+    copy_coarse(right_half_, x_right, y, coarse);
+    const CoarseTemplate patch(coarse);
     int best = 1 << 30;
     int best_x = -1000;
     for (int x = from; x <= to; ++x) {
         if (!coarse_inside(left_half_, x, y)) {
             continue;
         }
-        const int d = coarse_distance(patch, left_half_, x, y);
+        const int d = patch.distance(left_half_, x, y);
         if (d < best) {
             best = d;
             best_x = x;

@@ -131,6 +131,7 @@ void TrackerCore::match(const Input& input) {
     in.mask_right = &mask_right_;
     in.priors = &priors_;
     in.calibration = &calibration_;
+    in.camera_height_m = config_.camera_height_m;
     in.frame = frame_;
     in.observer = observer_;
     const Status status =

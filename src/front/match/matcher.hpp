@@ -20,6 +20,7 @@ struct MatcherInput {
     const OwnerMask* mask_right{nullptr};
     const OwnerPriors* priors{nullptr};
     const Calibration* calibration{nullptr};
+    double camera_height_m{0};  ///< above the road; 0: the patch matcher knows no road
     std::uint32_t frame{0};
     StageObserver* observer{nullptr};  ///< told of kExtract and kMatch; may be null
 };

@@ -1,36 +1,109 @@
 #include "front/match/patch_align.hpp"
 
 #include <cmath>
+#include <cstddef>
+
+#include "math/lanes.hpp"
 
 namespace semtrack {
 
 namespace {
 
+using lanes::I16x8;
+using lanes::I32x4;
+
 constexpr int kIterations = 12;
 constexpr float kSettled_px = 0.02F;
-constexpr float kMinTexture = 300.0F;  // sum of squared gradients over the patch: below, noise decides
-constexpr int kSource = kPatch + 2;    // with one more pixel around for gradients
+constexpr double kMinTexture = 300.0 * 1024.0;  // sum of squared gradients, 300 grey^2: below, noise decides
+constexpr double kMinSquare = 256.0;            // one grey level^2
+constexpr std::int16_t kMiddle = 128 * 16;
+constexpr double kPixels = static_cast<double>(kPatch) * kPatch;
+constexpr int kGrid = 128;  // steps of the interpolation per px
+constexpr std::int16_t kColumnMask[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, 0, 0, 0, 0, 0};
 
 int floor_int(float x) {
     const int i = static_cast<int>(x);
     return x < static_cast<float>(i) ? i - 1 : i;
 }
 
-/// Bilinear sample of the reference patch at offset (x, y) from its middle; inside by contract.
-float sample_reference(const ReferencePatch& reference, float x, float y) {
-    constexpr float kMiddle = static_cast<float>(kReference / 2);
-    const float fx = x + kMiddle;
-    const float fy = y + kMiddle;
-    int ix = floor_int(fx);
-    int iy = floor_int(fy);
-    ix = ix < 0 ? 0 : ix > kReference - 2 ? kReference - 2 : ix;
-    iy = iy < 0 ? 0 : iy > kReference - 2 ? kReference - 2 : iy;
-    const float ax = fx - static_cast<float>(ix);
-    const float ay = fy - static_cast<float>(iy);
-    const std::uint8_t* p = reference.data() + iy * kReference + ix;
-    const float top = static_cast<float>(p[0]) + ax * static_cast<float>(p[1] - p[0]);
-    const float bottom = static_cast<float>(p[kReference]) + ax * static_cast<float>(p[kReference + 1] - p[kReference]);
-    return top + ay * (bottom - top);
+int clamped(int x, int high) {
+    return x < 0 ? 0 : x > high ? high : x;
+}
+
+/// Sixteen pixels.
+struct Row {
+    I16x8 low;
+    I16x8 high;
+};
+
+/// Between sixteen pixels and their neighbours to the right, in 1/128 grey level; ax in 1/128 px.
+Row along(const std::uint8_t* p, const I16x8& ax) {
+    const lanes::U8x16 a = lanes::load(p);
+    const lanes::U8x16 b = lanes::load(p + 1);
+    const I16x8 low = lanes::widen_low(a);
+    const I16x8 high = lanes::widen_high(a);
+    return {lanes::add(lanes::shift_left<7>(low), lanes::mul(lanes::sub(lanes::widen_low(b), low), ax)),
+            lanes::add(lanes::shift_left<7>(high), lanes::mul(lanes::sub(lanes::widen_high(b), high), ax))};
+}
+
+/// Weights of two rows for values in 1/16 grey level.
+struct RowWeights {
+    I16x8 upper;
+    I16x8 lower;
+    explicit RowWeights(int ay)
+        : upper(lanes::splat16(static_cast<std::int16_t>((kGrid - ay) * 64))),
+          lower(lanes::splat16(static_cast<std::int16_t>(ay * 64))) {}
+};
+
+Row between(const Row& upper, const Row& lower, const RowWeights& w) {
+    return {lanes::add(lanes::mul_high(upper.low, w.upper), lanes::mul_high(lower.low, w.lower)),
+            lanes::add(lanes::mul_high(upper.high, w.upper), lanes::mul_high(lower.high, w.lower))};
+}
+
+/// A coordinate on the grid of the interpolation.
+struct OnGrid {
+    int whole;
+    int part;
+    explicit OnGrid(float x) {
+        const int steps = floor_int(x * static_cast<float>(kGrid) + 0.5F);
+        whole = steps >= 0 ? steps / kGrid : -((kGrid - 1 - steps) / kGrid);
+        part = steps - whole * kGrid;
+    }
+    [[nodiscard]] float value() const {
+        return static_cast<float>(whole) + static_cast<float>(part) * (1.0F / static_cast<float>(kGrid));
+    }
+};
+
+/// Sums of products over the patch.
+struct Product {
+    I32x4 sum{};
+    void add(const Row& a, const Row& b) {
+        lanes::add_products(sum, a.low, b.low);
+        lanes::add_products(sum, a.high, b.high);
+    }
+    [[nodiscard]] std::int32_t total() const { return lanes::total(sum); }
+};
+
+Row load_row(const std::int16_t* p) {
+    return {lanes::load16(p), lanes::load16(p + 8)};
+}
+void store_row(std::int16_t* p, const Row& row) {
+    lanes::store16(p, row.low);
+    lanes::store16(p + 8, row.high);
+}
+Row difference(const std::int16_t* a, const std::int16_t* b, const Row& mask) {
+    return {lanes::bit_and(lanes::sub(lanes::load16(a), lanes::load16(b)), mask.low),
+            lanes::bit_and(lanes::sub(lanes::load16(a + 8), lanes::load16(b + 8)), mask.high)};
+}
+Row about_middle(const Row& row, const Row& mask) {
+    const I16x8 middle = lanes::splat16(kMiddle);
+    return {lanes::bit_and(lanes::sub(row.low, middle), mask.low),
+            lanes::bit_and(lanes::sub(row.high, middle), mask.high)};
+}
+
+/// Sum of (a - mean a) (b - mean b) from the raw sums.
+double centred(std::int32_t ab, std::int32_t a, std::int32_t b) {
+    return static_cast<double>(ab) - static_cast<double>(a) * static_cast<double>(b) / kPixels;
 }
 
 }  // namespace
@@ -58,106 +131,159 @@ bool take_reference(const ImageView& image, float u, float v, ReferencePatch& ou
     return true;
 }
 
-bool PatchTemplate::build(const ReferencePatch& reference, float scale) {
-    float source[kSource * kSource];
-    const float inverse = 1.0F / scale;
+bool PatchTemplate::build(const ReferencePatch& reference, const PatchWarp& warp) {
+    constexpr int kUnit = 4096;  // steps per px
+    constexpr int kLast = (kReference - 1) * kUnit - 1;
+    const auto steps = [](float x) { return floor_int(x * static_cast<float>(kUnit) + 0.5F); };
+    const int a = steps(warp.a);
+    const int b = steps(warp.b);
+    const int d = steps(warp.d);
+    constexpr int kMid = kReference / 2 * kUnit;
+    constexpr int kHalf = kSource / 2;
+    Source source{};
+    std::int16_t row[kReference];
     for (int r = 0; r < kSource; ++r) {
-        const float y = static_cast<float>(r - kSource / 2) * inverse;
-        for (int c = 0; c < kSource; ++c) {
-            source[r * kSource + c] = sample_reference(reference, static_cast<float>(c - kSource / 2) * inverse, y);
+        const int y = clamped(kMid + d * (r - kHalf), kLast);
+        const int ay = (y / 64) % 64;
+        const std::uint8_t* upper = reference.data() + y / kUnit * kReference;
+        for (int c = 0; c < kReference; ++c) {
+            row[c] = static_cast<std::int16_t>(upper[c] * (64 - ay) + upper[c + kReference] * ay);
+        }
+        std::int16_t* out = source.data() + static_cast<std::ptrdiff_t>(r) * kSourceStride;
+        int x = kMid + b * (r - kHalf) - a * kHalf;
+        for (int c = 0; c < kSource; ++c, x += a) {
+            const int at = clamped(x, kLast);
+            const int ax = (at / 64) % 64;
+            const std::int16_t* p = row + at / kUnit;
+            out[c] = static_cast<std::int16_t>((p[0] * (64 - ax) + p[1] * ax) / 256);
         }
     }
-    float mean = 0.0F;
-    float mean_u = 0.0F;
-    float mean_v = 0.0F;
-    std::size_t i = 0;
-    for (int r = 0; r < kPatch; ++r) {
-        for (int c = 0; c < kPatch; ++c, ++i) {
-            const float* p = source + (r + 1) * kSource + c + 1;
-            value_[i] = p[0];
-            gu_[i] = 0.5F * (p[1] - p[-1]);
-            gv_[i] = 0.5F * (p[kSource] - p[-kSource]);
-            mean += value_[i];
-            mean_u += gu_[i];
-            mean_v += gv_[i];
-        }
-    }
-    constexpr float kShare = 1.0F / static_cast<float>(kPixels);
-    mean *= kShare;
-    mean_u *= kShare;
-    mean_v *= kShare;
-    norm_ = huu_ = huv_ = hvv_ = 0.0F;
-    for (std::size_t k = 0; k < kPixels; ++k) {
-        value_[k] -= mean;
-        gu_[k] -= mean_u;
-        gv_[k] -= mean_v;
-        norm_ += value_[k] * value_[k];
-        huu_ += gu_[k] * gu_[k];
-        huv_ += gu_[k] * gv_[k];
-        hvv_ += gv_[k] * gv_[k];
-    }
-    norm_ = std::sqrt(norm_);
-    return huu_ + hvv_ > kMinTexture && norm_ > 1.0F;
+    return finish(source);
 }
 
-bool PatchTemplate::residual(const ImageView& image, float u, float v, float& bu, float& bv, float& ncc) const {
-    const int x0 = floor_int(u) - kPatchHalf;
-    const int y0 = floor_int(v) - kPatchHalf;
-    if (x0 < 0 || y0 < 0 || x0 + kPatch + 1 > image.width || y0 + kPatch + 1 > image.height) {
+bool PatchTemplate::build_at(const ImageView& image, float u, float v, float shear) {
+    constexpr int kHalf = kSource / 2;
+    const OnGrid row(v);
+    const int y0 = row.whole - kHalf;
+    const float reach = static_cast<float>(kHalf) * std::fabs(shear) + static_cast<float>(kHalf) + 1.0F;
+    if (!(u - reach > 0.0F) || !(u + reach + static_cast<float>(kLanes - kSource) + 1.0F <
+                                 static_cast<float>(image.width)) ||
+        y0 < 0 || y0 + kSource + 1 > image.height) {
         return false;
     }
-    const float ax = u - static_cast<float>(floor_int(u));
-    const float ay = v - static_cast<float>(floor_int(v));
-    const float w00 = (1.0F - ax) * (1.0F - ay);
-    const float w01 = ax * (1.0F - ay);
-    const float w10 = (1.0F - ax) * ay;
-    const float w11 = ax * ay;
-    float sample[kPixels];
-    float mean = 0.0F;
-    std::size_t i = 0;
+    const RowWeights weights(row.part);
+    Source source{};
+    for (int r = 0; r < kSource; ++r) {
+        const OnGrid x(u + shear * static_cast<float>(r - kHalf));
+        const I16x8 ax = lanes::splat16(static_cast<std::int16_t>(x.part));
+        const int x0 = x.whole - kHalf;
+        store_row(source.data() + static_cast<std::ptrdiff_t>(r) * kSourceStride,
+                  between(along(image.row(y0 + r) + x0, ax), along(image.row(y0 + r + 1) + x0, ax), weights));
+    }
+    return finish(source);
+}
+
+bool PatchTemplate::finish(const Source& source) {
+    const Row mask = load_row(kColumnMask);
+    const Row one{lanes::splat16(1), lanes::splat16(1)};
+    Product v1;
+    Product u1;
+    Product w1;
+    Product vv;
+    Product uu;
+    Product uw;
+    Product ww;
+    Product vu;
+    Product vw;
     for (int r = 0; r < kPatch; ++r) {
-        const std::uint8_t* a = image.row(y0 + r) + x0;
-        const std::uint8_t* b = image.row(y0 + r + 1) + x0;
-        for (int c = 0; c < kPatch; ++c, ++i) {
-            sample[i] = w00 * static_cast<float>(a[c]) + w01 * static_cast<float>(a[c + 1]) +
-                        w10 * static_cast<float>(b[c]) + w11 * static_cast<float>(b[c + 1]);
-            mean += sample[i];
-        }
+        const std::int16_t* p = source.data() + static_cast<std::ptrdiff_t>(r + 1) * kSourceStride + 1;
+        const Row value = about_middle(load_row(p), mask);
+        const Row gu = difference(p + 1, p - 1, mask);
+        const Row gv = difference(p + kSourceStride, p - kSourceStride, mask);
+        const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(r) * kLanes;
+        store_row(value_.data() + at, value);
+        store_row(gu_.data() + at, gu);
+        store_row(gv_.data() + at, gv);
+        v1.add(value, one);
+        u1.add(gu, one);
+        w1.add(gv, one);
+        vv.add(value, value);
+        uu.add(gu, gu);
+        uw.add(gu, gv);
+        ww.add(gv, gv);
+        vu.add(value, gu);
+        vw.add(value, gv);
     }
-    mean *= 1.0F / static_cast<float>(kPixels);
-    bu = bv = 0.0F;
-    float dot = 0.0F;
-    float square = 0.0F;
-    for (std::size_t k = 0; k < kPixels; ++k) {
-        const float s = sample[k] - mean;
-        const float e = s - value_[k];
-        bu += gu_[k] * e;
-        bv += gv_[k] * e;
-        dot += s * value_[k];
-        square += s * s;
+    sum_ = v1.total();
+    sum_u_ = u1.total();
+    sum_v_ = w1.total();
+    value_u_ = vu.total();
+    value_v_ = vw.total();
+    square_ = centred(vv.total(), sum_, sum_);
+    huu_ = centred(uu.total(), sum_u_, sum_u_);
+    huv_ = centred(uw.total(), sum_u_, sum_v_);
+    hvv_ = centred(ww.total(), sum_v_, sum_v_);
+    return huu_ + hvv_ > kMinTexture && square_ > kMinSquare;
+}
+
+bool PatchTemplate::compare(const ImageView& image, float u, float v, Match& out) const {
+    const OnGrid column(u);
+    const OnGrid row(v);
+    const int x0 = column.whole - kPatchHalf;
+    const int y0 = row.whole - kPatchHalf;
+    if (x0 < 0 || y0 < 0 || x0 + kLanes + 1 > image.width || y0 + kPatch + 1 > image.height) {
+        return false;
     }
-    ncc = square > 1.0F ? dot / (std::sqrt(square) * norm_) : 0.0F;
+    const I16x8 ax = lanes::splat16(static_cast<std::int16_t>(column.part));
+    const RowWeights weights(row.part);
+    const Row mask = load_row(kColumnMask);
+    const Row one{lanes::splat16(1), lanes::splat16(1)};
+    Product s1;
+    Product ss;
+    Product sv;
+    Product su;
+    Product sw;
+    Row upper = along(image.row(y0) + x0, ax);
+    for (int r = 0; r < kPatch; ++r) {
+        const Row lower = along(image.row(y0 + r + 1) + x0, ax);
+        const Row s = about_middle(between(upper, lower, weights), mask);
+        const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(r) * kLanes;
+        s1.add(s, one);
+        ss.add(s, s);
+        sv.add(s, load_row(value_.data() + at));
+        su.add(s, load_row(gu_.data() + at));
+        sw.add(s, load_row(gv_.data() + at));
+        upper = lower;
+    }
+    const std::int32_t sum = s1.total();
+    out.u = column.value();
+    out.v = row.value();
+    out.bu = centred(su.total(), sum, sum_u_) - centred(value_u_, sum_, sum_u_);
+    out.bv = centred(sw.total(), sum, sum_v_) - centred(value_v_, sum_, sum_v_);
+    const double square = centred(ss.total(), sum, sum);
+    const double dot = centred(sv.total(), sum, sum_);
+    out.ncc = square > kMinSquare ? static_cast<float>(dot / std::sqrt(square * square_)) : 0.0F;
     return true;
 }
 
 bool PatchTemplate::align(const ImageView& image, float max_shift_px, float& u, float& v, float& ncc) const {
-    const float determinant = huu_ * hvv_ - huv_ * huv_;
-    if (!(determinant > 1e-3F * huu_ * hvv_) || !(determinant > 1.0F)) {
+    const double determinant = huu_ * hvv_ - huv_ * huv_;
+    if (!(determinant > 1e-3 * huu_ * hvv_) || !(determinant > kMinTexture)) {
         return false;
     }
-    const float inverse = 1.0F / determinant;
+    const double inverse = 2.0 / determinant;  // values are in 1/16, gradients in 1/32
     const float u0 = u;
     const float v0 = v;
     for (int k = 0; k < kIterations; ++k) {
-        float bu = 0.0F;
-        float bv = 0.0F;
-        if (!residual(image, u, v, bu, bv, ncc)) {
+        Match match;
+        if (!compare(image, u, v, match)) {
             return false;
         }
-        const float du = inverse * (hvv_ * bu - huv_ * bv);
-        const float dv = inverse * (huu_ * bv - huv_ * bu);
-        u -= du;
-        v -= dv;
+        ncc = match.ncc;
+        const auto du = static_cast<float>(inverse * (hvv_ * match.bu - huv_ * match.bv));
+        const auto dv = static_cast<float>(inverse * (huu_ * match.bv - huv_ * match.bu));
+        u = match.u - du;
+        v = match.v - dv;
         const float su = u - u0;
         const float sv = v - v0;
         if (!(su * su + sv * sv < max_shift_px * max_shift_px)) {
@@ -171,18 +297,18 @@ bool PatchTemplate::align(const ImageView& image, float max_shift_px, float& u, 
 }
 
 bool PatchTemplate::align_row(const ImageView& image, float max_shift_px, float& u, float v, float& ncc) const {
-    if (!(huu_ > 0.5F * kMinTexture)) {
+    if (!(huu_ > 0.5 * kMinTexture)) {
         return false;
     }
     const float u0 = u;
     for (int k = 0; k < kIterations; ++k) {
-        float bu = 0.0F;
-        float bv = 0.0F;
-        if (!residual(image, u, v, bu, bv, ncc)) {
+        Match match;
+        if (!compare(image, u, v, match)) {
             return false;
         }
-        const float du = bu / huu_;
-        u -= du;
+        ncc = match.ncc;
+        const auto du = static_cast<float>(2.0 * match.bu / huu_);
+        u = match.u - du;
         const float su = u - u0;
         if (!(su * su < max_shift_px * max_shift_px)) {
             return false;

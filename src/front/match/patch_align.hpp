@@ -1,6 +1,7 @@
 // Sub-pixel alignment of a small patch: inverse compositional Lucas-Kanade on 11x11 pixels with their means taken off
 // (a difference of brightness between cameras or frames does not pull), in two dimensions or along the row only
-// (two-dimensional stereo alignment makes the path 0.2 % longer). Single precision, + - * / sqrt in fixed order.
+// (two-dimensional stereo alignment makes the path 0.2 % longer). Sums over the patch are integers: they have one value
+// in any order, on every target.
 #ifndef SEMTRACK_FRONT_MATCH_PATCH_ALIGN_HPP
 #define SEMTRACK_FRONT_MATCH_PATCH_ALIGN_HPP
 
@@ -19,30 +20,64 @@ using ReferencePatch = std::array<std::uint8_t, static_cast<std::size_t>(kRefere
 /// Copies the surroundings of (u, v), bilinear; false: too near to the border.
 [[nodiscard]] bool take_reference(const ImageView& image, float u, float v, ReferencePatch& out);
 
-/// A reference patch made ready: intensities and gradients about the mean.
+/// Where a pixel of the patch as it looks now lay in the reference, both from the middle, in px:
+///   u_reference = a u + b v,  v_reference = d v.  Rows stay rows: what a plane that meets the image rows does.
+struct PatchWarp {
+    float a{1.0F};
+    float b{0.0F};
+    float d{1.0F};
+};
+
+/// A patch made ready: intensities and gradients.
 class PatchTemplate {
 public:
-    /// scale: size of the patch in the new image over its size in the reference (0.75 .. 1.3). false: no texture.
-    [[nodiscard]] bool build(const ReferencePatch& reference, float scale);
+    /// From a reference. The warp's a and d: 0.5 .. 1.35 (what lies outside of the reference repeats its border).
+    /// false: no texture.
+    [[nodiscard]] bool build(const ReferencePatch& reference, const PatchWarp& warp);
+    /// From the image itself about (u, v); a row further down is taken `shear` columns further to the right.
+    /// false: too near to the border, or no texture.
+    [[nodiscard]] bool build_at(const ImageView& image, float u, float v, float shear);
     /// Moves (u, v) to the best place in the image. false: left the image, moved farther than max_shift_px or did not
     /// settle. ncc: correlation at the end, -1..1.
     [[nodiscard]] bool align(const ImageView& image, float max_shift_px, float& u, float& v, float& ncc) const;
     /// Along the row only; v stays.
     [[nodiscard]] bool align_row(const ImageView& image, float max_shift_px, float& u, float v, float& ncc) const;
-    /// Sum of squared gradients: 1 / sigma^2 of the position at one grey level of noise.
-    [[nodiscard]] float texture_u() const { return huu_; }
-    [[nodiscard]] float texture_v() const { return hvv_; }
+    /// Sum of squared gradients, (grey levels per px)^2: 1 / sigma^2 of the position at one grey level of noise.
+    [[nodiscard]] float texture_u() const { return static_cast<float>(huu_) * kGradientUnit * kGradientUnit; }
+    [[nodiscard]] float texture_v() const { return static_cast<float>(hvv_) * kGradientUnit * kGradientUnit; }
 
 private:
-    [[nodiscard]] bool residual(const ImageView& image, float u, float v, float& bu, float& bv, float& ncc) const;
-    static constexpr std::size_t kPixels = static_cast<std::size_t>(kPatch) * kPatch;
-    std::array<float, kPixels> value_{};
-    std::array<float, kPixels> gu_{};
-    std::array<float, kPixels> gv_{};
-    float norm_{0};
-    float huu_{0};
-    float huv_{0};
-    float hvv_{0};
+    // Values are in 1/16 grey level about 128, gradients (differences over two px) in 1/32 grey level per px. A row of
+    // the patch is 16 lanes wide; lanes beyond the patch are 0.
+    static constexpr int kLanes = 16;
+    static constexpr int kSource = kPatch + 2;  // with one more pixel around, for gradients
+    static constexpr int kSourceStride = 24;
+    static constexpr float kGradientUnit = 1.0F / 32.0F;
+    using Source = std::array<std::int16_t, static_cast<std::size_t>(kSource) * kSourceStride>;
+    /// What the image shows at a place, against the template; brightness is already taken off.
+    struct Match {
+        float u{0};  // the place, on the grid of the interpolation
+        float v{0};
+        double bu{0};  // sum of gradient x difference
+        double bv{0};
+        float ncc{0};
+    };
+
+    [[nodiscard]] bool finish(const Source& source);
+    [[nodiscard]] bool compare(const ImageView& image, float u, float v, Match& out) const;
+
+    std::array<std::int16_t, static_cast<std::size_t>(kPatch) * kLanes> value_{};
+    std::array<std::int16_t, static_cast<std::size_t>(kPatch) * kLanes> gu_{};
+    std::array<std::int16_t, static_cast<std::size_t>(kPatch) * kLanes> gv_{};
+    std::int32_t sum_{0};    // of the values
+    std::int32_t sum_u_{0};  // of the gradients
+    std::int32_t sum_v_{0};
+    std::int32_t value_u_{0};  // of value x gradient
+    std::int32_t value_v_{0};
+    double square_{0};  // of the values about their mean
+    double huu_{0};     // of the gradients about their means
+    double huv_{0};
+    double hvv_{0};
 };
 
 }  // namespace semtrack

@@ -77,9 +77,20 @@ void PatchImage::build(const ImageView& image) {
     }
 }
 
-void copy_coarse(const PatchImage& image, int x, int y, CoarsePatch& out) {
+CoarseRows::CoarseRows(float shift_per_row) {
+    constexpr int kMiddle = kCoarse / 2 - 1;  // the row of the feature
     for (int r = 0; r < kCoarse; ++r) {
-        std::memcpy(out.data() + static_cast<std::ptrdiff_t>(r) * kCoarse, image.row(y + r) + x, kCoarse);
+        const float exact = shift_per_row * static_cast<float>(r - kMiddle);
+        int shift = static_cast<int>(exact < 0.0F ? exact - 0.5F : exact + 0.5F);
+        shift = shift < -kLargestShift ? -kLargestShift : shift > kLargestShift ? kLargestShift : shift;
+        offset_[static_cast<std::size_t>(r)] = static_cast<std::ptrdiff_t>(r) * PatchImage::kHalfWidth + shift;
+        margin_ = shift > margin_ ? shift : -shift > margin_ ? -shift : margin_;
+    }
+}
+
+void copy_coarse(const PatchImage& image, int x, int y, const CoarseRows& rows, CoarsePatch& out) {
+    for (int r = 0; r < kCoarse; ++r) {
+        std::memcpy(out.data() + static_cast<std::ptrdiff_t>(r) * kCoarse, image.row(y) + x + rows.offset(r), kCoarse);
     }
 }
 

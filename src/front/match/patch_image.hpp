@@ -57,7 +57,27 @@ using CoarsePatch = std::array<std::uint8_t, static_cast<std::size_t>(kCoarse) *
     const float offset = 0.5F * static_cast<float>(before - after) / static_cast<float>(curvature);
     return offset < -0.5F ? -0.5F : offset > 0.5F ? 0.5F : offset;
 }
-void copy_coarse(const PatchImage& image, int x, int y, CoarsePatch& out);
+/// Where the rows of a coarse patch are looked up: row r of a patch about (x, y) at offset[r] from its corner. A slanted
+/// surface moves its rows sideways; upright ones do not.
+class CoarseRows {
+public:
+    static constexpr int kLargestShift = 2;  ///< px to either side
+
+    CoarseRows() : CoarseRows(0.0F) {}
+    /// shift_per_row: columns that a row further down lies to the right.
+    explicit CoarseRows(float shift_per_row);
+    [[nodiscard]] bool inside(const PatchImage& image, int x, int y) const {
+        return coarse_inside(image, x - margin_, y) && coarse_inside(image, x + margin_, y);
+    }
+    [[nodiscard]] std::ptrdiff_t offset(int r) const { return offset_[static_cast<std::size_t>(r)]; }
+    [[nodiscard]] int margin() const { return margin_; }
+
+private:
+    std::array<std::ptrdiff_t, static_cast<std::size_t>(kCoarse)> offset_{};
+    int margin_{0};
+};
+
+void copy_coarse(const PatchImage& image, int x, int y, const CoarseRows& rows, CoarsePatch& out);
 
 /// A coarse patch ready to be compared with many places.
 class CoarseTemplate {
@@ -68,12 +88,11 @@ public:
         }
     }
     /// Sum of absolute differences at a corner that is inside.
-    [[nodiscard]] int distance(const PatchImage& image, int x, int y) const {
-        constexpr std::ptrdiff_t kStride = PatchImage::kHalfWidth;
+    [[nodiscard]] int distance(const PatchImage& image, int x, int y, const CoarseRows& rows) const {
         const std::uint8_t* p = image.row(y) + x;
         lanes::SadSum sum;
-        for (std::size_t k = 0; k < kPairs; ++k, p += 2 * kStride) {
-            sum.add(rows_[k], lanes::load_halves(p, p + kStride));
+        for (int k = 0; k < static_cast<int>(kPairs); ++k) {
+            sum.add(rows_[k], lanes::load_halves(p + rows.offset(2 * k), p + rows.offset(2 * k + 1)));
         }
         return sum.total();
     }

@@ -11,14 +11,19 @@ namespace {
 
 constexpr int kFastThreshold = 10;
 constexpr int kBorder_px = 14;
-constexpr int kRadiusYoung = 10;  // half-size px: the owner's motion is not known yet
+constexpr int kWideRadius = 10;  // half-size px: motion or depth are not known yet
 constexpr int kRadius = 4;
+constexpr int kStartFrames = 2;  // until the background's motion is known
+constexpr int kCandidates = 2;   // corners tried per missing feature of the background
+constexpr std::uint32_t kRowsEvery = 4;  // a feature in four measures the row offset
 constexpr int kMaxCoarseDistance = kCoarse * kCoarse * 26;
 constexpr float kMaxShift_px = 3.0F;  // of the refinement: the coarse search is right to a pixel
 constexpr float kMinCorrelation = 0.75F;
 constexpr float kRenewCorrelation = 0.85F;
 constexpr std::uint16_t kRenewAge = 6;  // frames: never renewing loses features, every frame makes them drift
-constexpr float kMaxScale = 1.15F;
+constexpr float kRenewGrowth = 1.15F;
+constexpr float kMinGrowth = 0.75F;
+constexpr float kMaxGrowth = 1.3F;
 constexpr double kFallbackDepth_m = 20.0;
 constexpr float kSigma_px = 0.25F;
 
@@ -40,7 +45,7 @@ void PatchMatcher::reset() {
     }
     table_.next_id = 1;
     row_.reset();
-    first_ = true;
+    frames_ = 0;
 }
 
 float PatchMatcher::depth_of(const MatcherInput& in, const FeatureSlot& slot) const {
@@ -87,12 +92,15 @@ bool PatchMatcher::search(const Appearance& a, float u, float v, int radius, Fou
     int best_x = 0;
     int best_y = 0;
     bool any = false;
+    const int first = x0 > radius ? x0 - radius : 0;
+    const int limit = left_half_.width() - kCoarse;
+    const int last = x0 + radius < limit ? x0 + radius : limit;
     for (int y = y0 - radius; y <= y0 + radius; ++y) {
-        for (int x = x0 - radius; x <= x0 + radius; ++x) {
-            if (!coarse_inside(left_half_, x, y)) {
-                continue;
-            }
-            const int d = patch.distance(left_half_, x, y);
+        if (y < 0 || y + kCoarse > left_half_.height()) {
+            continue;
+        }
+        for (int x = first; x <= last; ++x) {
+            const int d = patch.distance(left_half_, x, y, upright_rows_);
             if (d < best) {
                 best = d;
                 best_x = x;
@@ -106,7 +114,7 @@ bool PatchMatcher::search(const Appearance& a, float u, float v, int radius, Fou
     }
     const auto around = [&](int dx, int dy) {
         return coarse_inside(left_half_, best_x + dx, best_y + dy)
-                   ? patch.distance(left_half_, best_x + dx, best_y + dy)
+                   ? patch.distance(left_half_, best_x + dx, best_y + dy, upright_rows_)
                    : best;
     };
     found.u = 2.0F * (static_cast<float>(best_x) + parabola_offset(around(-1, 0), best, around(1, 0))) + a.coarse_du;
@@ -130,15 +138,17 @@ bool PatchMatcher::follow_one(const MatcherInput& in, int owner, int s, double f
     if (!(at(0) > 0.0) || !(at(1) > 0.0) || !(at(0) < in.left.width) || !(at(1) < in.left.height)) {
         return false;
     }
+    const bool sure = owner == kBackground ? frames_ >= kStartFrames && measured > 0.0F : slot.age > 0;
     Found found;
-    const int radius = slot.age == 0 || first_ ? kRadiusYoung : kRadius;
-    if (!search(a, static_cast<float>(at(0)), static_cast<float>(at(1)), radius, found)) {
+    if (!search(a, static_cast<float>(at(0)), static_cast<float>(at(1)), sure ? kRadius : kWideRadius, found)) {
         return false;
     }
-    float scale =
-        a.reference_depth_m > 0.0F && measured > 0.0F ? a.reference_depth_m / static_cast<float>(x_now(2)) : 1.0F;
-    scale = scale < 0.75F ? 0.75F : scale > 1.3F ? 1.3F : scale;
-    if (!template_.build(a.reference, scale) || !template_.align(in.left, kMaxShift_px, found.u, found.v, found.ncc) ||
+    const auto z_now = static_cast<float>(x_now(2));
+    float growth = a.reference_depth_m > 0.0F && measured > 0.0F ? a.reference_depth_m / z_now : 1.0F;
+    growth = growth < kMinGrowth ? kMinGrowth : growth > kMaxGrowth ? kMaxGrowth : growth;
+    const bool road = a.road && road_.may_show(found.v);
+    const PatchWarp warp = road ? road_.warp(found.u, found.v, growth) : PatchWarp{1.0F / growth, 0.0F, 1.0F / growth};
+    if (!template_.build(a.reference, warp) || !template_.align(in.left, kMaxShift_px, found.u, found.v, found.ncc) ||
         found.ncc < kMinCorrelation || !allowed(in, owner, found.u, found.v)) {
         return false;
     }
@@ -149,27 +159,35 @@ bool PatchMatcher::follow_one(const MatcherInput& in, int owner, int s, double f
     m.previous_v = slot.v;
     m.previous_u_right = slot.u_right;
     m.previous_stereo = slot.stereo;
+    m.sigma_px = kSigma_px;
     slot.u = found.u;
     slot.v = found.v;
     ++slot.age;
     ++a.age;
-    m.sigma_px = kSigma_px;
     remember_coarse(slot, a);
-    // The disparity that the motion predicts; none when the depth was only a guess.
     const double d = in.calibration->left.fx * in.calibration->baseline_m / x_now(2);
-    const bool keep_scale = scale < kMaxScale && scale > 1.0F / kMaxScale;
-    float sigma = 0.0F;
-    const bool stereo = match_stereo(in, owner, slot, a, measured > 0.0F ? static_cast<float>(d) : -1.0F, sigma);
-    slot.stereo = stereo;
-    m.stereo = stereo;
-    m.sigma_right_px = sigma;
+    RowMatch match;
+    slot.stereo = measured > 0.0F ? match_again(in, slot, road, static_cast<float>(d), slot.id % kRowsEvery == 0U, match)
+                                  : match_new(in, owner, slot, match);  // the depth was only a guess
+    set_stereo(match, slot, m);
+    const bool keep_scale = growth < kRenewGrowth && growth > 1.0F / kRenewGrowth;
     if (a.age >= kRenewAge || found.ncc < kRenewCorrelation || !keep_scale) {
-        remember(in, slot, a, stereo ? depth_of(in, slot) : measured > 0.0F ? static_cast<float>(x_now(2)) : 0.0F);
+        a.road = slot.stereo ? match.road : road;
+        remember(in, slot, a, slot.stereo ? depth_of(in, slot) : measured > 0.0F ? z_now : 0.0F);
     }
     return true;
 }
 
-void PatchMatcher::remember(const MatcherInput& in, FeatureSlot& slot, Appearance& a, float depth_m) const {
+void PatchMatcher::set_stereo(const RowMatch& match, FeatureSlot& slot, FeatureMeasurement& m) {
+    m.stereo = slot.stereo;
+    if (slot.stereo) {
+        slot.u_right = match.u_right;
+        slot.v_right = match.v_right;
+        m.sigma_right_px = match.sigma_px;
+    }
+}
+
+void PatchMatcher::remember(const MatcherInput& in, const FeatureSlot& slot, Appearance& a, float depth_m) const {
     if (!take_reference(in.left, slot.u, slot.v, a.reference)) {
         return;
     }
@@ -185,7 +203,7 @@ void PatchMatcher::remember_coarse(const FeatureSlot& slot, Appearance& a) const
     if (!coarse_inside(left_half_, x, y)) {
         return;
     }
-    copy_coarse(left_half_, x, y, a.coarse);
+    copy_coarse(left_half_, x, y, upright_rows_, a.coarse);
     a.coarse_du = slot.u - 2.0F * static_cast<float>(x);
     a.coarse_dv = slot.v - 2.0F * static_cast<float>(y);
 }
@@ -207,6 +225,7 @@ void PatchMatcher::follow(const MatcherInput& in, int owner) {
 
 void PatchMatcher::add_new(const MatcherInput& in) {
     FeatureBudget budget{};
+    std::array<int, static_cast<std::size_t>(kMaxOwners)> missing{};
     for (int owner = 0; owner < kMaxOwners; ++owner) {
         const OwnerPrior& prior = (*in.priors)[static_cast<std::size_t>(owner)];
         int alive = 0;
@@ -214,8 +233,9 @@ void PatchMatcher::add_new(const MatcherInput& in) {
             alive += table_.at(owner, s).live ? 1 : 0;
         }
         const int wanted = prior.budget < feature_slots(owner) ? prior.budget : feature_slots(owner);
-        budget[static_cast<std::size_t>(owner)] =
-            static_cast<std::int16_t>(prior.active && wanted > alive ? wanted - alive : 0);
+        const auto o = static_cast<std::size_t>(owner);
+        missing[o] = prior.active && wanted > alive ? wanted - alive : 0;
+        budget[o] = static_cast<std::int16_t>(missing[o] * (owner == kBackground ? kCandidates : 1));
     }
     if (fast_.detect(in.left, kFastThreshold, kBorder_px, corners_) != Status::kOk) {
         return;
@@ -224,37 +244,63 @@ void PatchMatcher::add_new(const MatcherInput& in) {
     int owner = -1;
     int next = 0;
     for (const SelectedCorner& c : selected_) {
+        const auto o = static_cast<std::size_t>(c.owner);
         if (c.owner != owner) {
             next = 0;
         }
         owner = c.owner;
-        const int s = table_.free_slot(owner, next);
+        const int s = missing[o] > 0 ? table_.free_slot(owner, next) : -1;
         if (s < 0) {
             continue;
         }
-        next = s + 1;
-        FeatureSlot& slot = table_.at(owner, s);
-        Appearance& a = looks_[static_cast<std::size_t>(first_feature_slot(owner) + s)];
-        slot.u = static_cast<float>(c.corner.x);
-        slot.v = static_cast<float>(c.corner.y);
-        slot.stereo = false;
-        slot.age = 0;
-        remember(in, slot, a, 0.0F);
-        remember_coarse(slot, a);
-        if (!template_.build(a.reference, 1.0F)) {
-            continue;
+        next = s;
+        if (start(in, c, s)) {
+            --missing[o];
         }
-        slot.live = true;
-        slot.id = table_.next_id++;
-        FeatureMeasurement& m = now_[static_cast<std::size_t>(first_feature_slot(owner) + s)];
-        m = FeatureMeasurement{};
-        m.sigma_px = kSigma_px;
-        float sigma = 0.0F;
-        slot.stereo = match_stereo(in, owner, slot, a, -1.0F, sigma);
-        m.stereo = slot.stereo;
-        m.sigma_right_px = sigma;
-        a.reference_depth_m = depth_of(in, slot);
     }
+}
+
+bool PatchMatcher::start(const MatcherInput& in, const SelectedCorner& c, int s) {
+    FeatureSlot& slot = table_.at(c.owner, s);
+    Appearance& a = looks_[static_cast<std::size_t>(first_feature_slot(c.owner) + s)];
+    slot.u = static_cast<float>(c.corner.x);
+    slot.v = static_cast<float>(c.corner.y);
+    RowMatch match;
+    slot.stereo = match_new(in, c.owner, slot, match);
+    FeatureMeasurement& m = now_[static_cast<std::size_t>(first_feature_slot(c.owner) + s)];
+    m = FeatureMeasurement{};
+    m.sigma_px = kSigma_px;
+    set_stereo(match, slot, m);
+    if (c.owner == kBackground && !in.right.empty() && (!slot.stereo || leaves(in, slot))) {
+        return false;
+    }
+    slot.age = 0;
+    a.road = match.road;
+    remember(in, slot, a, depth_of(in, slot));
+    remember_coarse(slot, a);
+    if (!slot.stereo && !template_.build(a.reference, PatchWarp{})) {
+        return false;
+    }
+    slot.live = true;
+    slot.id = table_.next_id++;
+    return true;
+}
+
+// Whether the last motion, made once more, takes it out of the image.
+bool PatchMatcher::leaves(const MatcherInput& in, const FeatureSlot& slot) const {
+    const Pose& T = (*in.priors)[static_cast<std::size_t>(kBackground)].T_cur_prev;
+    const float z = depth_of(in, slot);
+    if (!finite(T) || !(z > 0.0F)) {
+        return false;
+    }
+    const Vec3 x_next = T * (bearing(in.calibration->left, static_cast<double>(slot.u), static_cast<double>(slot.v)) *
+                             static_cast<double>(z));
+    if (!(x_next(2) > kMinDepth_m)) {
+        return true;
+    }
+    const Vec2 at = project(in.calibration->left, x_next);
+    return !(at(0) > kBorder_px) || !(at(1) > kBorder_px) || !(at(0) < in.left.width - kBorder_px) ||
+           !(at(1) < in.left.height - kBorder_px);
 }
 
 void PatchMatcher::emit(int owner, int s, FrameFeatures& out) {
@@ -283,6 +329,8 @@ Status PatchMatcher::process(const MatcherInput& in, FrameFeatures& out) {
     if (in.observer != nullptr) {
         in.observer->begin(Stage::kMatch);
     }
+    road_ = RoadPlane(*in.calibration, in.camera_height_m);
+    road_rows_ = CoarseRows(-road_.slope());
     left_half_.build(in.left);
     if (!in.right.empty()) {
         right_half_.build(in.right);
@@ -311,7 +359,7 @@ Status PatchMatcher::process(const MatcherInput& in, FrameFeatures& out) {
     if (in.observer != nullptr) {
         in.observer->end(Stage::kExtract);
     }
-    first_ = false;
+    frames_ += frames_ < kStartFrames ? 1 : 0;
     return Status::kOk;
 }
 

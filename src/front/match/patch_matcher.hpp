@@ -11,6 +11,7 @@
 #include "front/match/matcher.hpp"
 #include "front/match/patch_align.hpp"
 #include "front/match/patch_image.hpp"
+#include "front/match/road_patch.hpp"
 #include "front/match/row_offset.hpp"
 #include "semtrack/status.hpp"
 
@@ -19,8 +20,10 @@ namespace semtrack {
 class PatchMatcher {
 public:
     void reset();
-    /// Follows the live features, finds their right image, fills empty cells with new corners. out is sorted by owner,
-    /// then slot. kInvalidArgument: image sizes do not fit; nothing changes.
+    /// Follows the live features, finds their right image, fills empty cells with new corners. A new corner of the
+    /// background is taken only with a stereo match and when the last motion keeps it in the image: others are lost a
+    /// frame later (three of four, measured) and would keep a place from one that lasts. out is sorted by owner, then
+    /// slot. kInvalidArgument: image sizes do not fit; nothing changes.
     Status process(const MatcherInput& input, FrameFeatures& out);
     /// An outlier: its slot is freed.
     void reject(int owner, int slot) { table_.at(owner, slot).live = false; }
@@ -36,28 +39,52 @@ private:
         float coarse_dv{0};
         float reference_depth_m{0};  // 0: unknown, no change of scale is assumed
         std::uint16_t age{0};        // frames since the reference was taken
+        bool road{false};            // lies on the road, else upright
     };
     struct Found {
         float u{0};
         float v{0};
         float ncc{0};
     };
+    /// A place along the row of the right image.
+    struct RowMatch {
+        bool road{false};
+        float u_right{0};
+        float v_right{0};
+        float ncc{0};
+        float sigma_px{0};
+    };
+    /// Columns of the right image, half-size px.
+    struct RowRange {
+        int from{0};
+        int to{0};
+    };
 
+    // patch_matcher.cpp
     void follow(const MatcherInput& in, int owner);
     [[nodiscard]] bool follow_one(const MatcherInput& in, int owner, int slot, double fallback_depth_m);
     [[nodiscard]] bool search(const Appearance& a, float u, float v, int radius, Found& found) const;
     void add_new(const MatcherInput& in);
-    [[nodiscard]] bool match_stereo(const MatcherInput& in, int owner, FeatureSlot& slot, const Appearance& a,
-                                    float predicted_disparity, float& sigma_px);
-    [[nodiscard]] bool search_row(const CoarsePatch& patch, int y, int from, int to, bool unique, int& best_x,
-                                  float& offset) const;
-    [[nodiscard]] bool search_back(int x_right, int y, int from, int to, int x_left) const;
-    void remember(const MatcherInput& in, FeatureSlot& slot, Appearance& a, float depth_m) const;
+    [[nodiscard]] bool start(const MatcherInput& in, const SelectedCorner& corner, int slot);
+    [[nodiscard]] bool leaves(const MatcherInput& in, const FeatureSlot& slot) const;
+    static void set_stereo(const RowMatch& match, FeatureSlot& slot, FeatureMeasurement& m);
+    void remember(const MatcherInput& in, const FeatureSlot& slot, Appearance& a, float depth_m) const;
     void remember_coarse(const FeatureSlot& slot, Appearance& a) const;
     [[nodiscard]] double owner_depth(const MatcherInput& in, int owner);
     [[nodiscard]] bool allowed(const MatcherInput& in, int owner, float u, float v) const;
     [[nodiscard]] float depth_of(const MatcherInput& in, const FeatureSlot& slot) const;
     void emit(int owner, int slot, FrameFeatures& out);
+    // patch_stereo.cpp
+    [[nodiscard]] bool match_again(const MatcherInput& in, const FeatureSlot& slot, bool road, float disparity_px,
+                                   bool measure_rows, RowMatch& out);
+    [[nodiscard]] bool match_new(const MatcherInput& in, int owner, const FeatureSlot& slot, RowMatch& out);
+    [[nodiscard]] bool match_between(const MatcherInput& in, const FeatureSlot& slot, bool road, double d_low,
+                                     double d_high, bool unique, RowMatch& out);
+    [[nodiscard]] bool search_row(const CoarsePatch& coarse, const CoarseRows& rows, int y, RowRange range, bool unique,
+                                  int& best_x, float& offset) const;
+    [[nodiscard]] bool search_back(const CoarseRows& rows, int x_right, int y, RowRange range, int x_left) const;
+    [[nodiscard]] bool refine(const MatcherInput& in, const FeatureSlot& slot, RowMatch& match);
+    void measure_row_offset(const MatcherInput& in, const FeatureSlot& slot, const RowMatch& match);
 
     FeatureTable table_{};
     std::array<Appearance, kMaxFeatures> looks_{};
@@ -70,8 +97,11 @@ private:
     SelectedCorners selected_{};
     std::array<float, static_cast<std::size_t>(kMaxBackgroundFeatures)> depths_{};
     RowOffsetFilter row_{};
+    RoadPlane road_{};
+    CoarseRows upright_rows_{};
+    CoarseRows road_rows_{};
     PatchTemplate template_{};
-    bool first_{true};
+    int frames_{0};  // since the start, up to kStartFrames
 };
 
 }  // namespace semtrack

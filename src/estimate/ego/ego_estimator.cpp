@@ -114,12 +114,12 @@ void EgoEstimator::solve_window(NormalEquations& system, SolverStep& step, Mat6&
 
 void EgoEstimator::cull(EgoResult& out) {
     const EgoFrame& now = window_.frames.back();
-    for (int s = 0; s < kMaxBackgroundFeatures; ++s) {
-        EgoLandmark& landmark = window_.landmarks[static_cast<std::size_t>(s)];
+    for (int l = 0; l < kEgoLandmarks; ++l) {
+        EgoLandmark& landmark = window_.landmarks[static_cast<std::size_t>(l)];
         if (!landmark.valid) {
             continue;
         }
-        const bool seen_now = window_.seen(s, now).valid;
+        const bool seen_now = window_.seen(l, now).valid;
         for (const EgoFrame& frame : window_.frames) {
             EgoObservation& o = landmark.seen[static_cast<std::size_t>(frame.column)];
             StereoPointResidual z;
@@ -129,11 +129,11 @@ void EgoEstimator::cull(EgoResult& out) {
                 o.valid = false;
             }
         }
-        if (window_.seen(s, now).valid) {
+        if (window_.seen(l, now).valid) {
             ++out.inliers;
         } else if (seen_now) {
             landmark.forget();
-            (void)out.outliers.try_push_back(static_cast<std::int16_t>(s));
+            (void)out.outliers.try_push_back(landmark.slot);
         }
     }
 }
@@ -147,10 +147,10 @@ bool EgoEstimator::needs_keyframe() const {
     const EgoFrame& key = window_.frames[last];
     int shared = 0;
     double flow = 0.0;
-    for (int s = 0; s < kMaxBackgroundFeatures; ++s) {
-        const EgoObservation& a = window_.seen(s, key);
-        const EgoObservation& b = window_.seen(s, now);
-        if (window_.landmarks[static_cast<std::size_t>(s)].valid && a.valid && b.valid) {
+    for (int l = 0; l < kEgoLandmarks; ++l) {
+        const EgoObservation& a = window_.seen(l, key);
+        const EgoObservation& b = window_.seen(l, now);
+        if (window_.landmarks[static_cast<std::size_t>(l)].valid && a.valid && b.valid) {
             ++shared;
             flow += std::fabs(static_cast<double>(a.u - b.u)) + std::fabs(static_cast<double>(a.v - b.v));
         }
@@ -165,9 +165,9 @@ void EgoEstimator::make_keyframe() {
     EgoFrame& now = window_.frames.back();
     now.keyframe = true;
     keyframe_landmarks_ = 0;
-    for (int s = 0; s < kMaxBackgroundFeatures; ++s) {
-        const bool valid = window_.landmarks[static_cast<std::size_t>(s)].valid;
-        keyframe_landmarks_ += valid && window_.seen(s, now).valid ? 1 : 0;
+    for (int l = 0; l < kEgoLandmarks; ++l) {
+        const bool valid = window_.landmarks[static_cast<std::size_t>(l)].valid;
+        keyframe_landmarks_ += valid && window_.seen(l, now).valid ? 1 : 0;
     }
 }
 

@@ -14,21 +14,23 @@ constexpr int kMinSeen = 6;  // landmarks that a free frame must see
 
 }  // namespace
 
-void EgoProblem::take_landmarks(std::array<int, kEgoFrames>& seen_by_frame) {
-    points_ = 0;
-    for (int s = 0; s < kMaxBackgroundFeatures; ++s) {
-        const EgoLandmark& landmark = window_->landmarks[static_cast<std::size_t>(s)];
-        if (!landmark.valid) {
+void EgoProblem::take_landmarks(bool seen_now, int first_free, std::array<int, kEgoFrames>& seen_by_frame) {
+    for (int l = 0; l < kEgoLandmarks && points_ < kSolverPoints; ++l) {
+        const EgoLandmark& landmark = window_->landmarks[static_cast<std::size_t>(l)];
+        if (!landmark.valid || window_->seen(l, window_->frames.back()).valid != seen_now) {
             continue;
         }
         int seen = 0;
-        for (const EgoFrame& frame : window_->frames) {
-            seen += window_->seen(s, frame).valid ? 1 : 0;
+        int seen_free = 0;
+        for (int k = 0; k < frames_; ++k) {
+            const bool valid = window_->seen(l, window_->frames[k]).valid;
+            seen += valid ? 1 : 0;
+            seen_free += valid && k >= first_free ? 1 : 0;
         }
-        if (seen < 2) {
+        if (seen < 2 || seen_free < 1) {
             continue;
         }
-        slot_of_point_[static_cast<std::size_t>(points_)] = static_cast<std::int16_t>(s);
+        landmark_of_point_[static_cast<std::size_t>(points_)] = static_cast<std::int16_t>(l);
         current_.x_w[static_cast<std::size_t>(points_)] = landmark.x_w;
         for (int k = 0; k < frames_; ++k) {
             seen_by_frame[static_cast<std::size_t>(k)] += observation(points_, k).valid ? 1 : 0;
@@ -41,10 +43,12 @@ void EgoProblem::begin(const EgoWindow& window, const Calibration& calibration) 
     window_ = &window;
     calibration_ = &calibration;
     frames_ = window.frames.size();
-    std::array<int, kEgoFrames> seen_by_frame{};
-    take_landmarks(seen_by_frame);
+    points_ = 0;
     // The oldest pose is always held: without it the window could drift as a whole.
     const int first_free = frames_ - kFreeFrames > 1 ? frames_ - kFreeFrames : 1;
+    std::array<int, kEgoFrames> seen_by_frame{};
+    take_landmarks(true, first_free, seen_by_frame);
+    take_landmarks(false, first_free, seen_by_frame);
     free_ = 0;
     for (int k = 0; k < frames_; ++k) {
         const auto i = static_cast<std::size_t>(k);
@@ -59,7 +63,7 @@ void EgoProblem::store(EgoWindow& window) const {
     }
     for (int p = 0; p < points_; ++p) {
         const auto i = static_cast<std::size_t>(p);
-        window.landmarks[static_cast<std::size_t>(slot_of_point_[i])].x_w = current_.x_w[i];
+        window.landmarks[static_cast<std::size_t>(landmark_of_point_[i])].x_w = current_.x_w[i];
     }
 }
 

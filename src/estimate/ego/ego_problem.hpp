@@ -19,7 +19,8 @@ static_assert(kFreeFrames <= kSolverFrames && kEgoFrames <= kSolverFrames, "the 
 
 class EgoProblem {
 public:
-    /// Landmarks seen in two frames or more take part. Frames that see too few of them are held as well.
+    /// Landmarks seen in two frames or more, one of them free, take part: at most kSolverPoints, those that the newest
+    /// frame sees first. Frames that see too few of them are held as well.
     void begin(const EgoWindow& window, const Calibration& calibration);
     void store(EgoWindow& window) const;
 
@@ -35,13 +36,13 @@ public:
 private:
     struct Variables {
         std::array<Pose, kEgoFrames> T_c_w{};
-        std::array<Vec3, kMaxBackgroundFeatures> x_w{};  // by point
+        std::array<Vec3, static_cast<std::size_t>(kSolverPoints)> x_w{};  // by point
     };
-    void take_landmarks(std::array<int, kEgoFrames>& seen_by_frame);
+    void take_landmarks(bool seen_now, int first_free, std::array<int, kEgoFrames>& seen_by_frame);
     double evaluate(const Variables& x, NormalEquations* system) const;
     double add_observation(const Variables& x, int p, int k, NormalEquations* system) const;
     [[nodiscard]] const EgoObservation& observation(int p, int k) const {
-        return window_->seen(slot_of_point_[static_cast<std::size_t>(p)], window_->frames[k]);
+        return window_->seen(landmark_of_point_[static_cast<std::size_t>(p)], window_->frames[k]);
     }
 
     const EgoWindow* window_{nullptr};
@@ -50,7 +51,7 @@ private:
     int free_{0};
     int points_{0};
     std::array<int, kEgoFrames> block_{};  // by frame; -1: held
-    std::array<std::int16_t, kMaxBackgroundFeatures> slot_of_point_{};
+    std::array<std::int16_t, static_cast<std::size_t>(kSolverPoints)> landmark_of_point_{};
     Variables current_{};
     Variables candidate_{};
 };

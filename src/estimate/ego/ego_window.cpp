@@ -45,12 +45,18 @@ void EgoLandmark::forget() {
     }
 }
 
+void EgoLandmark::release() {
+    used = false;
+    slot = -1;
+    forget();
+}
+
 void EgoWindow::clear() {
     frames.clear();
     for (EgoLandmark& landmark : landmarks) {
-        landmark.id = 0;
-        landmark.forget();
+        landmark.release();
     }
+    landmark_of_slot.fill(-1);
 }
 
 int EgoWindow::leaving() const {
@@ -83,19 +89,64 @@ void EgoWindow::push(std::uint32_t frame, const Pose& T_c_w) {
     (void)frames.try_push_back(now);  // never full: leaving() went
 }
 
+// Landmarks without a feature that fewer than two frames of the window have seen say nothing any more.
+void EgoWindow::release_unseen() {
+    for (EgoLandmark& landmark : landmarks) {
+        if (!landmark.used || landmark.slot >= 0) {
+            continue;
+        }
+        int seen = 0;
+        for (const EgoObservation& o : landmark.seen) {
+            seen += o.valid ? 1 : 0;
+        }
+        if (seen < 2 || !landmark.valid) {
+            landmark.release();
+        }
+    }
+}
+
+// From `from` on, else the oldest without a feature: there are twice as many landmarks as features.
+int EgoWindow::free_landmark(int from) const {
+    for (int k = from; k < kEgoLandmarks; ++k) {
+        if (!landmarks[static_cast<std::size_t>(k)].used) {
+            return k;
+        }
+    }
+    int oldest = 0;
+    bool any = false;
+    for (int k = 0; k < kEgoLandmarks; ++k) {
+        const EgoLandmark& landmark = landmarks[static_cast<std::size_t>(k)];
+        if (landmark.slot < 0 && (!any || landmark.id < landmarks[static_cast<std::size_t>(oldest)].id)) {
+            oldest = k;
+            any = true;
+        }
+    }
+    return oldest;
+}
+
 void EgoWindow::take(const FrameFeatures& features, const Calibration& calibration) {
+    release_unseen();
     const auto column = static_cast<std::size_t>(frames.back().column);
+    int free_from = 0;
     for (const FeatureMeasurement& m : features) {
         if (!usable(m)) {
             continue;
         }
-        EgoLandmark& landmark = landmarks[static_cast<std::size_t>(m.slot)];
-        if (landmark.id != m.id) {
+        std::int16_t& index = landmark_of_slot[static_cast<std::size_t>(m.slot)];
+        if (index < 0 || landmarks[static_cast<std::size_t>(index)].id != m.id) {
+            if (index >= 0) {
+                landmarks[static_cast<std::size_t>(index)].slot = -1;
+            }
+            index = static_cast<std::int16_t>(free_landmark(free_from));
+            free_from = index + 1;
+            EgoLandmark& landmark = landmarks[static_cast<std::size_t>(index)];
+            landmark.release();
+            landmark.used = true;
             landmark.id = m.id;
-            landmark.forget();
+            landmark.slot = m.slot;
         }
         const double d = disparity(calibration, static_cast<double>(m.u), static_cast<double>(m.u_right));
-        EgoObservation& o = landmark.seen[column];
+        EgoObservation& o = landmarks[static_cast<std::size_t>(index)].seen[column];
         o.valid = true;
         o.stereo = usable_right(m, d);
         o.u = m.u;

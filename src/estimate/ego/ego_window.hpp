@@ -40,20 +40,29 @@ struct EgoObservation {
     [[nodiscard]] StereoPointMeasurement measurement() const;
 };
 
-/// Background feature n, ^0 f_n; index = the feature's slot.
+/// A point outlives its feature: what older frames of the window saw of it still ties their poses together, and a
+/// window of 500 features that live for 6 frames has seen some 1000 points.
+inline constexpr int kEgoLandmarks = 2 * kMaxBackgroundFeatures;
+
+/// Background feature n, ^0 f_n.
 struct EgoLandmark {
-    std::uint32_t id{0};
-    bool valid{false};  ///< x_w is known
+    bool used{false};
+    std::uint32_t id{0};    ///< of the feature
+    std::int16_t slot{-1};  ///< of the feature while it lives
+    bool valid{false};      ///< x_w is known
     Vec3 x_w{Vec3::Zero()};
     std::array<EgoObservation, kEgoFrames> seen{};  ///< by column
 
     /// x_w and all observations are forgotten.
     void forget();
+    /// Forgotten, and free for another feature.
+    void release();
 };
 
 struct EgoWindow {
     StaticVector<EgoFrame, kEgoFrames> frames{};  ///< oldest first; the last one is the current frame
-    std::array<EgoLandmark, kMaxBackgroundFeatures> landmarks{};
+    std::array<EgoLandmark, static_cast<std::size_t>(kEgoLandmarks)> landmarks{};
+    std::array<std::int16_t, static_cast<std::size_t>(kMaxBackgroundFeatures)> landmark_of_slot{};  ///< -1: none
 
     void clear();
     /// The index of the frame that must leave before the next push; -1: there is room and nothing too old.
@@ -62,16 +71,21 @@ struct EgoWindow {
     /// Makes room with drop(leaving()) first. The new frame has seen nothing yet.
     void push(std::uint32_t frame, const Pose& T_c_w);
     /// What the current frame measured. Rows of other owners, with a slot out of range or with numbers that are not
-    /// finite are left out; a new id empties its slot.
+    /// finite are left out. A new id starts a new landmark; when none is free, the one that was seen last the longest
+    /// ago and has no feature any more goes.
     void take(const FrameFeatures& features, const Calibration& calibration);
     /// Landmarks without a position start at the stereo point of the current frame.
     void give_birth(const Calibration& calibration);
     /// Newest keyframe before the current frame; -1: none.
     [[nodiscard]] int last_keyframe() const;
 
-    [[nodiscard]] const EgoObservation& seen(int slot, const EgoFrame& frame) const {
-        return landmarks[static_cast<std::size_t>(slot)].seen[static_cast<std::size_t>(frame.column)];
+    [[nodiscard]] const EgoObservation& seen(int landmark, const EgoFrame& frame) const {
+        return landmarks[static_cast<std::size_t>(landmark)].seen[static_cast<std::size_t>(frame.column)];
     }
+
+private:
+    void release_unseen();
+    [[nodiscard]] int free_landmark(int from) const;
 };
 
 }  // namespace semtrack

@@ -103,6 +103,7 @@ struct EgoState {
     double sigma_yaw_rate{0};
     int features{0};                      ///< background features matched with an earlier frame
     int inliers{0};                       ///< of them, used by the estimate
+    int rejected{0};                      ///< of them, refused by RANSAC
 };
 
 enum class TrackStatus : std::uint8_t { kNew = 0, kMeasured, kCoasted, kLost };
@@ -120,6 +121,7 @@ struct TrackedObject {
     double score{0};                  ///< ranks the objects, 0..1, lower when coasting
     int age{0};                       ///< frames since its first detection
     int features{0};                  ///< matched on it in this frame
+    int rejected{0};                  ///< more of them, refused by RANSAC
     bool has_heading{false};          ///< false: yaw is the direction of motion (pedestrians)
     std::array<double, 3> position_w{};
     std::array<double, 3> position_v{};
@@ -164,6 +166,8 @@ struct Health {
     std::uint32_t tracks_dropped{0};        ///< no free slot
     std::uint32_t features_rejected{0};     ///< by RANSAC
     std::uint32_t solver_failures{0};       ///< not one step lowered the cost; the start was kept
+    float row_offset_px{0};                 ///< rows that the right image lies lower than the calibration says, measured
+                                            ///< slowly: a camera that moved shows here first
     bool ego_degraded{false};               ///< predicted, or few inliers
     bool no_right_image{false};
     bool no_detections{false};              ///< no list came in this frame

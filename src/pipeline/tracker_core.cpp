@@ -155,6 +155,8 @@ void TrackerCore::count_health(const Input& input) {
     } else if (input.right.empty()) {
         ++health_.frames_without_right;
     }
+    health_.row_offset_px =
+        static_cast<float>(config_.matcher == MatcherKind::kOrb ? orb_.row_offset_px() : patch_.row_offset_px());
     health_.ego_degraded = ego_result_.status == EgoStatus::kPredicted;
 }
 
@@ -167,6 +169,7 @@ void TrackerCore::build_output(Output& output) {
     ego.status = ego_result_.status;
     ego.T_w_v = to_rigid_transform(view.T_w_v);
     describe_ego_motion(ego_result_, T_v_c_, ego);
+    ego.rejected = features_usable_ ? rejection_.rejected(kBackground) : 0;
     view.sigma_speed = ego.sigma_speed;
     view.sigma_yaw_rate = ego.sigma_yaw_rate;
     output.objects.clear();
@@ -181,6 +184,7 @@ void TrackerCore::build_output(Output& output) {
             tracks_.remove(s);  // a state that is not finite is worth nothing
             continue;
         }
+        object.rejected = features_usable_ ? rejection_.rejected(s + 1) : 0;
         if (!lost || track.confirmed) {
             (void)output.objects.try_push_back(object);
         }

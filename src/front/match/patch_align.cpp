@@ -16,6 +16,7 @@ constexpr int kIterations = 12;
 constexpr float kSettled_px = 0.02F;
 constexpr double kMinTexture = 300.0 * 1024.0;  // sum of squared gradients, 300 grey^2: below, noise decides
 constexpr double kMinSquare = 256.0;            // one grey level^2
+constexpr double kMinContrast = 0.2;            // of the image over the template's: below, it is something else
 constexpr std::int16_t kMiddle = 128 * 16;
 constexpr double kPixels = static_cast<double>(kPatch) * kPatch;
 constexpr int kGrid = 128;  // steps of the interpolation per px
@@ -217,13 +218,18 @@ bool PatchTemplate::finish(const Source& source) {
     sum_ = v1.total();
     sum_u_ = u1.total();
     sum_v_ = w1.total();
-    value_u_ = vu.total();
-    value_v_ = vw.total();
     square_ = centred(vv.total(), sum_, sum_);
-    huu_ = centred(uu.total(), sum_u_, sum_u_);
-    huv_ = centred(uw.total(), sum_u_, sum_v_);
-    hvv_ = centred(ww.total(), sum_v_, sum_v_);
-    return huu_ + hvv_ > kMinTexture && square_ > kMinSquare;
+    if (!(square_ > kMinSquare)) {
+        return false;
+    }
+    const double value_u = centred(vu.total(), sum_, sum_u_);
+    const double value_v = centred(vw.total(), sum_, sum_v_);
+    gain_u_ = value_u / square_;
+    gain_v_ = value_v / square_;
+    huu_ = centred(uu.total(), sum_u_, sum_u_) - gain_u_ * value_u;
+    huv_ = centred(uw.total(), sum_u_, sum_v_) - gain_u_ * value_v;
+    hvv_ = centred(ww.total(), sum_v_, sum_v_) - gain_v_ * value_v;
+    return huu_ + hvv_ > kMinTexture;
 }
 
 bool PatchTemplate::compare(const ImageView& image, float u, float v, Match& out) const {
@@ -258,11 +264,15 @@ bool PatchTemplate::compare(const ImageView& image, float u, float v, Match& out
     const std::int32_t sum = s1.total();
     out.u = column.value();
     out.v = row.value();
-    out.bu = centred(su.total(), sum, sum_u_) - centred(value_u_, sum_, sum_u_);
-    out.bv = centred(sw.total(), sum, sum_v_) - centred(value_v_, sum_, sum_v_);
     const double square = centred(ss.total(), sum, sum);
     const double dot = centred(sv.total(), sum, sum_);
-    out.ncc = square > kMinSquare ? static_cast<float>(dot / std::sqrt(square * square_)) : 0.0F;
+    const double contrast = dot / square_;
+    if (!(square > kMinSquare) || !(contrast > kMinContrast)) {
+        return false;
+    }
+    out.bu = (centred(su.total(), sum, sum_u_) - gain_u_ * dot) / contrast;
+    out.bv = (centred(sw.total(), sum, sum_v_) - gain_v_ * dot) / contrast;
+    out.ncc = static_cast<float>(dot / std::sqrt(square * square_));
     return true;
 }
 

@@ -100,20 +100,47 @@ RunCounts old_run_counts(const fs::path& path) {
     return out;
 }
 
-/// Of an older metrics.json too: only the run itself saw the features.
+/// A part of an older metrics.json that only the run itself saw: features and stereo matches.
+class OldPart {
+public:
+    OldPart(const fs::path& path, const char* name) {
+        std::ifstream in(path);
+        const auto json = nlohmann::ordered_json::parse(in, nullptr, false);
+        if (json.is_object() && json.contains(name) && json[name].is_object()) {
+            json_ = json[name];
+        }
+    }
+    [[nodiscard]] bool empty() const { return json_.empty(); }
+    [[nodiscard]] std::optional<double> value(const char* name) const {
+        const auto found = json_.find(name);
+        return found != json_.end() && found->is_number() ? std::optional<double>(found->get<double>()) : std::nullopt;
+    }
+
+private:
+    nlohmann::ordered_json json_ = nlohmann::ordered_json::object();
+};
+
 std::optional<FeatureStatistics> old_features(const fs::path& path) {
-    std::ifstream in(path);
-    const auto json = nlohmann::ordered_json::parse(in, nullptr, false);
-    if (!json.is_object() || !json.contains("features") || !json["features"].is_object()) {
+    const OldPart old(path, "features");
+    if (old.empty()) {
         return std::nullopt;
     }
-    const auto value = [&](const char* name) -> std::optional<double> {
-        const auto found = json["features"].find(name);
-        const bool number = found != json["features"].end() && found->is_number();
-        return number ? std::optional<double>(found->get<double>()) : std::nullopt;
-    };
-    return FeatureStatistics{value("background_mean"), value("stereo_share"), value("track_length_mean"),
-                             value("track_length_median")};
+    return FeatureStatistics{old.value("background_mean"), old.value("stereo_share"), old.value("track_length_mean"),
+                             old.value("track_length_median")};
+}
+
+std::optional<StereoScores> old_stereo(const fs::path& path) {
+    const OldPart old(path, "stereo");
+    if (old.empty()) {
+        return std::nullopt;
+    }
+    return StereoScores{old.value("within_2px"),
+                        old.value("within_1_5px_by_truth"),
+                        old.value("reprojection_median_px"),
+                        old.value("label_depth_median_percent"),
+                        old.value("label_depth_bias_percent"),
+                        static_cast<std::int64_t>(old.value("label_points").value_or(0.0)),
+                        old.value("row_offset_px")};
 }
 
 void add_yaw_rates(const std::map<std::pair<int, int>, double>& published, std::vector<ObjectRow>& objects) {
@@ -243,6 +270,7 @@ void run_evaluate(const EvaluateOptions& options) {
     Metrics metrics = evaluate_results(options.results, read_truth(options.drive), options.drive.others);
     metrics.run = old_run_counts(path);
     metrics.features = old_features(path);
+    metrics.stereo = old_stereo(path);
     const fs::path unfinished = options.results / "metrics.json.unfinished";
     try {
         write_file(unfinished, to_json(metrics));

@@ -93,7 +93,7 @@ SequenceStereoSource::Settings stereo_settings(const ReplayOptions& o, const Ran
 
 class Run {
 public:
-    Run(const ReplayOptions& options, Drive& drive, const std::filesystem::path& dir)
+    Run(const ReplayOptions& options, Drive& drive, const DriveTruth& truth, const std::filesystem::path& dir)
         : options_(options),
           drive_(drive),
           writers_(dir, drive.cameras, options.dialect, options.points),
@@ -103,7 +103,8 @@ public:
                       options.detection_delay),
           tracker_(std::make_unique<Tracker>()),
           cycle_(std::make_unique<Cycle>()),
-          output_(std::make_unique<Output>()) {
+          output_(std::make_unique<Output>()),
+          stereo_checks_(drive.cameras.calibration, drive.cameras.t_c0_c, truth.ego, truth.objects) {
         if (!options.drive.ego.empty()) {
             ego_.emplace(*drive.sequence, read_given_poses(options.drive), drive.cameras.calibration.T_v_c,
                          drive.range.first, drive.range.last, options.drive.ego.string());
@@ -175,6 +176,9 @@ public:
     [[nodiscard]] FeatureStatistics features() const {
         return features_.statistics();
     }
+    [[nodiscard]] StereoScores stereo_scores() const {
+        return stereo_checks_.scores();
+    }
     [[nodiscard]] const std::vector<double>& total_us() const {
         return total_us_;
     }
@@ -199,6 +203,7 @@ private:
         }
         writers_.add(stereo_.frame(), *output_, cycle_->encoder().list_counter(), timer_.timing());
         features_.add(*output_);
+        stereo_checks_.add(stereo_.frame(), *output_);
         total_us_.push_back(timer_.timing().total_us);
         if (pictures_) {
             pictures_->add(stereo_.frame(), stereo_.left(), *output_);
@@ -224,6 +229,7 @@ private:
     std::unique_ptr<Output> output_;
     std::vector<double> total_us_;
     FeatureCounter features_;
+    StereoChecker stereo_checks_;
 };
 
 }  // namespace
@@ -237,11 +243,12 @@ void run_replay(const ReplayOptions& options) {
     Metrics metrics;
     std::vector<double> total_us;
     {
-        Run run(options, drive, folder.work());
+        Run run(options, drive, truth, folder.work());
         run.all_frames();
         metrics = evaluate_results(folder.work(), truth, options.drive.others);
         metrics.run = run.counts();
         metrics.features = run.features();
+        metrics.stereo = run.stereo_scores();
         total_us = run.total_us();
     }
     write_file(folder.work() / "metrics.json", to_json(metrics));

@@ -164,6 +164,18 @@ std::string features_text(const FeatureStatistics& f) {
     return json.text();
 }
 
+std::string stereo_text(const StereoScores& s) {
+    JsonObject json(2);
+    json.add("within_2px", s.within_2px);
+    json.add("within_1_5px_by_truth", s.within_1_5px_by_truth);
+    json.add("reprojection_median_px", s.reprojection_median_px);
+    json.add("label_depth_median_percent", s.label_depth_median_percent);
+    json.add("label_depth_bias_percent", s.label_depth_bias_percent);
+    json.add("label_points", s.label_points);
+    json.add("row_offset_px", s.row_offset_px);
+    return json.text();
+}
+
 std::string consistency_text(const Consistency& c) {
     JsonObject all(2);
     const auto add = [&all](const char* name, const ConsistencyScore& s) {
@@ -202,6 +214,7 @@ std::string to_json(const Metrics& metrics) {
     json.member("position_error", metrics.object_scores ? position_text(metrics.object_scores->position) : "null");
     json.member("consistency", metrics.consistency ? consistency_text(*metrics.consistency) : "null");
     json.member("features", metrics.features ? features_text(*metrics.features) : "null");
+    json.member("stereo", metrics.stereo ? stereo_text(*metrics.stereo) : "null");
     if (!metrics.run.empty()) {
         JsonObject run(2);
         for (const auto& [name, value] : metrics.run) {

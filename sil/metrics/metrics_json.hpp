@@ -14,6 +14,7 @@
 #include "sil/metrics/feature_statistics.hpp"
 #include "sil/metrics/object_errors.hpp"
 #include "sil/metrics/object_scores.hpp"
+#include "sil/metrics/stereo_checks.hpp"
 #include "sil/metrics/trajectory.hpp"
 
 namespace semtrack::sil {
@@ -39,6 +40,7 @@ struct Metrics {
     std::optional<ObjectScores> object_scores{};  ///< empty: no labels
     std::optional<Consistency> consistency{};     ///< empty: no standard deviations in the folder
     std::optional<FeatureStatistics> features{};  ///< empty: not a run's own, or no features
+    std::optional<StereoScores> stereo{};         ///< empty: not a run's own
     RunCounts run{};                              ///< empty: not known
 };
 

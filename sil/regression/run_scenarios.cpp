@@ -7,10 +7,10 @@
 
 #include "sil/evaluation.hpp"
 #include "sil/kitti/convert_detections.hpp"
-#include "sil/kitti/text_file.hpp"
 #include "sil/open_drive.hpp"
 #include "sil/regression/baseline.hpp"
 #include "sil/regression/child_process.hpp"
+#include "sil/regression/frame_times.hpp"
 #include "sil/regression/verdict.hpp"
 #include "sil/report/progress.hpp"
 #include "sil/report/text_output.hpp"
@@ -28,26 +28,6 @@ Json read_metrics(const fs::path& path) {
     return Json::parse(in, nullptr, false);
 }
 
-/// Median and maximum of each stage's time over the frames, ms, under /timing: from timing.csv, for tables only.
-void add_timing(const fs::path& path, Json& metrics) {
-    const TextFile file(path, false, ',');
-    Json timing = Json::object();
-    for (std::size_t column = 1; !file.rows().empty() && column < file.rows()[0].words.size(); ++column) {
-        const std::string name(file.rows()[0].words[column]);
-        if (name.size() < 4U || name.substr(name.size() - 3U) != "_us") {
-            continue;
-        }
-        std::vector<double> values;
-        for (std::size_t i = 1; i < file.rows().size(); ++i) {
-            values.push_back(1e-3 * file.number(file.rows()[i], column));
-        }
-        const std::string stage = name.substr(0, name.size() - 3U);
-        timing[stage + "_ms"] = median(values).value_or(0.0);
-        timing[stage + "_max_ms"] = quantile(values, 1.0).value_or(0.0);
-    }
-    metrics["timing"] = timing;
-}
-
 /// Last line of a log: what the replay complained of.
 std::string last_line(const fs::path& log) {
     std::ifstream in(log);
@@ -61,7 +41,8 @@ std::string last_line(const fs::path& log) {
 
 class Runner {
 public:
-    Runner(const RunOptions& options, const ScenarioFile& file) : o_(options), cases_(file.cases) {
+    Runner(const RunOptions& options, const ScenarioFile& file)
+        : o_(options), cases_(file.cases), runs_(file.cases.size()), times_(file.cases.size()) {
         for (const ScenarioCase& c : cases_) {
             CaseResult result;
             result.name = c.name;
@@ -90,20 +71,21 @@ public:
                 progress.show(done, done);
                 continue;
             }
-            if (running_.size() >= static_cast<std::size_t>(o_.jobs)) {
-                finish_one();
-                ++done;
+            while (running_.size() >= static_cast<std::size_t>(o_.jobs)) {
+                done += finish_one() ? 1 : 0;
                 progress.show(done, done);
             }
             start(i);
         }
         while (!running_.empty()) {
-            finish_one();
-            ++done;
+            done += finish_one() ? 1 : 0;
             progress.show(done, done);
         }
         return std::move(results_);
     }
+
+    /// Of every case, after run().
+    [[nodiscard]] const std::vector<FrameTimes>& times() const { return times_; }
 
 private:
     struct Running {
@@ -137,18 +119,27 @@ private:
         return path;
     }
 
-    void finish_one() {
+    /// Waits for a replay. false: it is no case's last.
+    bool finish_one() {
         const ChildEnd end = wait_for_child();
         const auto entry = running_.find(end.process);
         if (entry == running_.end()) {
-            return;
+            return false;
         }
         const Running running = entry->second;
         running_.erase(entry);
         CaseResult& result = results_[running.index];
-        result.seconds = std::chrono::duration<double>(Clock::now() - running.begin).count();
+        result.seconds += std::chrono::duration<double>(Clock::now() - running.begin).count();
+        if (end.status == 0) {
+            times_[running.index].add(o_.out / cases_[running.index].name / "timing.csv");
+            if (++runs_[running.index] < cases_[running.index].repeat) {
+                start(running.index);
+                return false;
+            }
+        }
         judge(cases_[running.index], end.status, result);
         result.status = result.failures.empty() ? CaseStatus::kPassed : CaseStatus::kFailed;
+        return true;
     }
 
     void judge(const ScenarioCase& c, int status, CaseResult& result) const {
@@ -176,11 +167,14 @@ private:
     const RunOptions& o_;
     const std::vector<ScenarioCase>& cases_;
     std::vector<CaseResult> results_;
+    std::vector<int> runs_;          // ended well, by case
+    std::vector<FrameTimes> times_;  // by case
     std::map<int, Running> running_;
 };
 
 /// Rows of the table: a group of one case has its metrics, a larger one those of its drives' objects together.
-GroupMetrics pooled(const RunOptions& o, const ScenarioFile& file, const std::vector<CaseResult>& results) {
+GroupMetrics pooled(const RunOptions& o, const ScenarioFile& file, const std::vector<CaseResult>& results,
+                    const std::vector<FrameTimes>& times) {
     std::vector<std::string> order;
     std::map<std::string, std::vector<std::size_t>> members;
     for (std::size_t i = 0; i < results.size(); ++i) {
@@ -205,7 +199,7 @@ GroupMetrics pooled(const RunOptions& o, const ScenarioFile& file, const std::ve
             }
             metrics = Json::parse(to_json(all));
         } else {
-            add_timing(o.out / file.cases[cases.front()].name / "timing.csv", metrics);
+            metrics["timing"] = times[cases.front()].metrics();
         }
         out.emplace_back(group, metrics);
     }
@@ -225,8 +219,9 @@ bool run_scenarios(const RunOptions& options) {
     } catch (const std::exception& error) {
         throw InputError(options.out.string() + ": cannot be written (" + error.what() + ")");
     }
-    const std::vector<CaseResult> results = Runner(options, file).run();
-    const std::string table = table_text(file.table, pooled(options, file, results));
+    Runner runner(options, file);
+    const std::vector<CaseResult> results = runner.run();
+    const std::string table = table_text(file.table, pooled(options, file, results, runner.times()));
     write_file(junit, junit_xml("semtrack-sil " + options.scenarios.stem().string(), results));
     write_file(options.out / "metrics.json", results_json(results));
     write_file(options.out / "table.txt", table);

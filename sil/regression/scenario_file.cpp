@@ -16,6 +16,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 /// One file's reader: every complaint names the file and the place.
+constexpr int kMaxRepeat = 100;
+
 class Reader {
 public:
     explicit Reader(const fs::path& path) : path_(path) {
@@ -118,10 +120,14 @@ private:
         if (!names_.insert(c.name).second) {
             refuse("the name is taken twice");
         }
-        require_keys(
-            merged,
-            {"name", "about", "group", "replay", "without_images", "convert", "bounds", "short", "tolerance", "golden"},
-            "case");
+        require_keys(merged,
+                     {"name", "about", "group", "replay", "without_images", "convert", "bounds", "short", "tolerance",
+                      "golden", "repeat"},
+                     "case");
+        c.repeat = merged.value("repeat", 1);
+        if (c.repeat < 1 || c.repeat > kMaxRepeat) {
+            refuse("repeat is 1 to " + std::to_string(kMaxRepeat));
+        }
         c.group = merged.value("group", c.name);
         read_replay(merged, c);
         read_bounds(merged.value("bounds", Json::object()), c.bounds);

@@ -49,6 +49,7 @@ struct ScenarioCase {
     std::vector<Shortfall> shortfalls;
     std::vector<Tolerance> tolerances;
     Golden golden{Golden::kNone};
+    int repeat{1};        ///< runs of the replay; /timing then has each frame's shortest time
     std::string missing;  ///< not empty: what is not there; the case is skipped
 };
 

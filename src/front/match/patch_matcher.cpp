@@ -14,7 +14,7 @@ constexpr int kBorder_px = 14;
 constexpr int kWideRadius = 10;  // half-size px: motion or depth are not known yet
 constexpr int kRadius = 4;
 constexpr int kStartFrames = 2;  // until the background's motion is known
-constexpr int kCandidates = 2;   // corners tried per missing feature
+constexpr int kCandidates = 2;   // corners tried per missing feature of the background
 constexpr std::uint32_t kRowsEvery = 4;  // a feature in four measures the row offset
 constexpr int kMaxCoarseDistance = kCoarse * kCoarse * 26;
 constexpr float kMaxShift_px = 3.0F;  // of the refinement: the coarse search is right to a pixel
@@ -235,7 +235,7 @@ void PatchMatcher::add_new(const MatcherInput& in) {
         const int wanted = prior.budget < feature_slots(owner) ? prior.budget : feature_slots(owner);
         const auto o = static_cast<std::size_t>(owner);
         missing[o] = prior.active && wanted > alive ? wanted - alive : 0;
-        budget[o] = static_cast<std::int16_t>(missing[o] * kCandidates);
+        budget[o] = static_cast<std::int16_t>(missing[o] * (owner == kBackground ? kCandidates : 1));
     }
     if (fast_.detect(in.left, kFastThreshold, kBorder_px, corners_) != Status::kOk) {
         return;
@@ -271,7 +271,7 @@ bool PatchMatcher::start(const MatcherInput& in, const SelectedCorner& c, int s)
     m = FeatureMeasurement{};
     m.sigma_px = kSigma_px;
     set_stereo(match, slot, m);
-    if (!in.right.empty() && (!slot.stereo || (c.owner == kBackground && leaves(in, slot)))) {
+    if (!in.right.empty() && c.owner == kBackground && (!slot.stereo || leaves(in, slot))) {
         return false;
     }
     slot.age = 0;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 
+#include "front/feature/brief.hpp"
 #include "front/feature/fast.hpp"
 #include "front/feature/orb_image.hpp"
 #include "front/feature/select.hpp"
@@ -38,6 +39,7 @@ private:
 
     [[nodiscard]] bool acceptable(const ImageView& image, const OwnerMaskView& mask) const;
     [[nodiscard]] FeatureBudget share_of_level(int level, int levels) const;
+    [[nodiscard]] OwnerMaskView owners_of_level(const ImageView& image, const OwnerMaskView& mask, int level);
     void extract_level(const ImageView& image, const OwnerMaskView& mask, int level, int levels);
     void write_sorted(Keypoints& out);
 
@@ -47,13 +49,12 @@ private:
     CornerSelector selector_{};
     SelectedCorners selected_{};
     ImageResizer resizer_{};
-    ImageSmoother smoother_{};
+    BriefPatch patch_{};
     // Only a level and the one before it exist at once; the finest is the caller's.
     std::array<std::uint8_t, static_cast<std::size_t>(kCoarseWidth) * kCoarseHeight> odd_level_{};
     std::array<std::uint8_t, static_cast<std::size_t>(level_size(kMaxImageWidth, 2)) * level_size(kMaxImageHeight, 2)>
         even_level_{};
     std::array<std::uint8_t, static_cast<std::size_t>(kCoarseWidth) * kCoarseHeight> coarse_mask_{};
-    std::array<std::uint8_t, static_cast<std::size_t>(kMaxImageWidth) * kMaxImageHeight> smoothed_{};
     FeatureBudget left_over_{};
     int full_width_{0};
     int full_height_{0};

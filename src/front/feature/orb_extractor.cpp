@@ -66,8 +66,13 @@ void OrbExtractor::extract_level(const ImageView& image, const OwnerMaskView& ma
     if (fast_.detect(image, options_.threshold, kMargin_px, corners_) != Status::kOk) {
         return;
     }
-    selector_.begin(image.width, image.height);
-    selector_.select(corners_, owners_of_level(image, mask, level), share_of_level(level, levels), selected_);
+    const OwnerMaskView owners = owners_of_level(image, mask, level);
+    if (options_.spread) {
+        selector_.begin(image.width, image.height);
+        selector_.select(corners_, owners, share_of_level(level, levels), selected_);
+    } else {
+        strongest_.select(corners_, owners, share_of_level(level, levels), selected_);
+    }
     for (const SelectedCorner& s : selected_) {
         const int u64 = full_position_64(s.corner.x, full_width_, image.width) - 32;
         const int v64 = full_position_64(s.corner.y, full_height_, image.height) - 32;

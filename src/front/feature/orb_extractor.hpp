@@ -10,6 +10,7 @@
 #include "front/feature/brief.hpp"
 #include "front/feature/fast.hpp"
 #include "front/feature/orb_image.hpp"
+#include "front/feature/orb_strongest.hpp"
 #include "front/feature/select.hpp"
 #include "semtrack/hal/feature_extractor.hpp"
 
@@ -19,6 +20,7 @@ struct OrbOptions {
     int levels{4};       ///< 1..kMaxPyramidLevels; fewer than the usual 8: a car's images hardly change in scale
     bool upright{true};  ///< false: descriptors turn with the patch. A car does not roll, and turning costs matches
     int threshold{10};   ///< FAST, grey levels
+    bool spread{true};   ///< over cells; false: the strongest wherever they are, as cv::ORB chooses
 };
 
 class OrbExtractor final : public FeatureExtractor {
@@ -47,6 +49,7 @@ private:
     FastDetector fast_{};
     CornerGrid corners_{};
     CornerSelector selector_{};
+    StrongestCorners strongest_{};
     SelectedCorners selected_{};
     ImageResizer resizer_{};
     BriefPatch patch_{};

@@ -7,10 +7,10 @@
 
 #include "sil/evaluation.hpp"
 #include "sil/kitti/convert_detections.hpp"
-#include "sil/kitti/text_file.hpp"
 #include "sil/open_drive.hpp"
 #include "sil/regression/baseline.hpp"
 #include "sil/regression/child_process.hpp"
+#include "sil/regression/table_metrics.hpp"
 #include "sil/regression/verdict.hpp"
 #include "sil/report/progress.hpp"
 #include "sil/report/text_output.hpp"
@@ -26,26 +26,6 @@ using Clock = std::chrono::steady_clock;
 Json read_metrics(const fs::path& path) {
     std::ifstream in(path, std::ios::binary);
     return Json::parse(in, nullptr, false);
-}
-
-/// Median and maximum of each stage's time over the frames, ms, under /timing: from timing.csv, for tables only.
-void add_timing(const fs::path& path, Json& metrics) {
-    const TextFile file(path, false, ',');
-    Json timing = Json::object();
-    for (std::size_t column = 1; !file.rows().empty() && column < file.rows()[0].words.size(); ++column) {
-        const std::string name(file.rows()[0].words[column]);
-        if (name.size() < 4U || name.substr(name.size() - 3U) != "_us") {
-            continue;
-        }
-        std::vector<double> values;
-        for (std::size_t i = 1; i < file.rows().size(); ++i) {
-            values.push_back(1e-3 * file.number(file.rows()[i], column));
-        }
-        const std::string stage = name.substr(0, name.size() - 3U);
-        timing[stage + "_ms"] = median(values).value_or(0.0);
-        timing[stage + "_max_ms"] = quantile(values, 1.0).value_or(0.0);
-    }
-    metrics["timing"] = timing;
 }
 
 /// Last line of a log: what the replay complained of.
@@ -205,7 +185,9 @@ GroupMetrics pooled(const RunOptions& o, const ScenarioFile& file, const std::ve
             }
             metrics = Json::parse(to_json(all));
         } else {
-            add_timing(o.out / file.cases[cases.front()].name / "timing.csv", metrics);
+            const fs::path folder = o.out / file.cases[cases.front()].name;
+            add_timing(folder / "timing.csv", metrics);
+            add_matches(folder / "ego.csv", metrics);
         }
         out.emplace_back(group, metrics);
     }

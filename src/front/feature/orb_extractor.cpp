@@ -63,9 +63,7 @@ OwnerMaskView OrbExtractor::owners_of_level(const ImageView& image, const OwnerM
 }
 
 void OrbExtractor::extract_level(const ImageView& image, const OwnerMaskView& mask, int level, int levels) {
-    if (fast_.detect(image, options_.threshold, kMargin_px, corners_) != Status::kOk) {
-        return;
-    }
+    detector_.detect(image, options_.threshold, corners_);
     const OwnerMaskView owners = owners_of_level(image, mask, level);
     if (options_.spread) {
         selector_.begin(image.width, image.height);

@@ -9,6 +9,7 @@
 
 #include "front/feature/brief.hpp"
 #include "front/feature/fast.hpp"
+#include "front/feature/orb_corners.hpp"
 #include "front/feature/orb_image.hpp"
 #include "front/feature/orb_strongest.hpp"
 #include "front/feature/select.hpp"
@@ -35,7 +36,8 @@ public:
                    Keypoints& out) noexcept override;
 
 private:
-    static constexpr int kMargin_px = kBriefRadius_px + 1;
+    static constexpr int kMargin_px = OrbCorners::kMargin_px;
+    static_assert(kMargin_px > kBriefRadius_px, "the disc lies inside the image");
     static constexpr int kCoarseWidth = level_size(kMaxImageWidth, 1);
     static constexpr int kCoarseHeight = level_size(kMaxImageHeight, 1);
 
@@ -46,7 +48,7 @@ private:
     void write_sorted(Keypoints& out);
 
     OrbOptions options_{};
-    FastDetector fast_{};
+    OrbCorners detector_{};
     CornerGrid corners_{};
     CornerSelector selector_{};
     StrongestCorners strongest_{};

@@ -37,12 +37,16 @@ public:
 
 private:
     struct Tap {
-        std::int16_t at{0};      ///< left or upper of the two
-        std::int16_t weight{0};  ///< of the other, 1/128
+        std::int32_t at{0};      ///< left or upper of the two
+        std::int32_t weight{0};  ///< of the other, 1/128
+    };
+    struct Column {
+        std::uint64_t weights{0};  ///< right one's | left one's x 2^32
+        std::int64_t at{0};
     };
     [[nodiscard]] static Tap tap(int x, int in_size, int size);
-    std::array<Tap, static_cast<std::size_t>(kMaxImageWidth)> columns_{};
-    std::array<std::uint16_t, static_cast<std::size_t>(kMaxImageWidth) + 1> blended_{};  // two rows in one, x 128
+    std::array<Column, static_cast<std::size_t>(kMaxImageWidth)> columns_{};
+    std::array<std::uint32_t, static_cast<std::size_t>(kMaxImageWidth) + 1> blended_{};  // two rows in one, x 128
 };
 
 }  // namespace semtrack

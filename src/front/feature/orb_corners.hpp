@@ -1,0 +1,33 @@
+// FAST-9 corners of whole pyramids: the corners, scores and order of FastDetector, computed for 16 neighbouring pixels at
+// a time. Bytes, minima and maxima only, so that compilers make one vector instruction of each step on any target.
+#ifndef SEMTRACK_FRONT_FEATURE_ORB_CORNERS_HPP
+#define SEMTRACK_FRONT_FEATURE_ORB_CORNERS_HPP
+
+#include <array>
+#include <cstdint>
+
+#include "front/feature/fast.hpp"
+#include "semtrack/capacity.hpp"
+#include "semtrack/image_view.hpp"
+
+namespace semtrack {
+
+class OrbCorners {
+public:
+    /// As FastDetector::detect, with kMargin_px of margin. The image is not larger than the capacity and larger than
+    /// 2 kMargin_px each way; threshold 1..254. Cost O(pixels); an image full of corners costs about twice a usual one.
+    void detect(const ImageView& image, int threshold, CornerGrid& out);
+
+    static constexpr int kMargin_px = 16;
+
+private:
+    void score_row(const ImageView& image, int y, int threshold, std::uint8_t* scores);
+    static void keep_largest(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, int width,
+                             int y, CornerGrid& out);
+
+    std::array<std::uint8_t, static_cast<std::size_t>(kMaxImageWidth) * 3> rows_{};  // scores of three rows
+};
+
+}  // namespace semtrack
+
+#endif

@@ -115,36 +115,42 @@ void score_block(const Rows& rows, int x, int threshold, Byte* scores) {
 
 }  // namespace
 
-void OrbCorners::score_row(const ImageView& image, int y, int threshold, std::uint8_t* scores) {
+// Blocks are listed first and scored then: whether one may hold a corner is hard to guess, and a branch on it would cost
+// more than the test. The last block may reach beyond the range, into the margin and the row's end; that part is cut.
+void OrbCorners::score_row(const ImageView& image, int y, int threshold, ScoredRow& out) {
     const int end = image.width - kMargin_px;
     const Rows rows(image, y);
-    std::memset(scores, 0, static_cast<std::size_t>(image.width));
+    int blocks = 0;
     for (int x = kMargin_px; x < end; x += kBlock) {
-        // The last block overlaps the one before; in a very narrow image it reaches beyond the range, which is cut below.
-        const int last = end - kBlock;
-        const int begin = x <= last ? x : (last >= kRadius ? last : kRadius);
-        if (may_hold_corner(rows, begin, threshold)) {
-            score_block(rows, begin, threshold, scores + begin);
-        }
+        out.block[static_cast<std::size_t>(blocks)] = static_cast<std::uint16_t>(x);
+        blocks += may_hold_corner(rows, x, threshold) ? 1 : 0;
     }
-    std::memset(scores, 0, kMargin_px);
-    std::memset(scores + end, 0, kMargin_px);
+    std::memset(out.score.data(), 0, static_cast<std::size_t>(image.width));
+    out.blocks = 0;
+    for (int k = 0; k < blocks; ++k) {
+        const std::uint16_t x = out.block[static_cast<std::size_t>(k)];
+        score_block(rows, x, threshold, out.score.data() + x);
+        out.block[static_cast<std::size_t>(out.blocks)] = x;
+        out.blocks += any(out.score.data() + x) ? 1 : 0;
+    }
+    std::memset(out.score.data() + end, 0, kMargin_px);
 }
 
-// 3 x 3 suppression; of equal neighbours the earlier one in raster order stays. The margin is as wide as a block, so the
-// last one may reach into it: there is nothing there.
-void OrbCorners::keep_largest(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, int width,
-                              int y, CornerGrid& out) {
-    static_assert(kBlock <= kMargin_px, "a block begins before the margin and ends within the row");
-    for (int x = kMargin_px; x < width - kMargin_px; x += kBlock) {
-        if (!any(here + x)) {
-            continue;
-        }
+// 3 x 3 suppression; of equal neighbours the earlier one in raster order stays. Again lists instead of branches.
+void OrbCorners::keep_largest(const ScoredRow& above, const ScoredRow& here, const ScoredRow& below, int y,
+                              CornerGrid& out) {
+    std::uint16_t columns[kMaxImageWidth];
+    int count = 0;
+    for (int k = 0; k < here.blocks; ++k) {
+        const int x = here.block[static_cast<std::size_t>(k)];
+        const Byte* up = above.score.data() + x;
+        const Byte* at = here.score.data() + x;
+        const Byte* down = below.score.data() + x;
         Byte kept[kBlock];
         for (int i = 0; i < kBlock; ++i) {
-            const Byte s = here[x + i];
-            const Byte before = more(more(above[x + i - 1], above[x + i]), more(above[x + i + 1], here[x + i - 1]));
-            const Byte after = more(more(below[x + i - 1], below[x + i]), more(below[x + i + 1], here[x + i + 1]));
+            const Byte s = at[i];
+            const Byte before = more(more(up[i - 1], up[i]), more(up[i + 1], at[i - 1]));
+            const Byte after = more(more(down[i - 1], down[i]), more(down[i + 1], at[i + 1]));
             const auto over_before = static_cast<Byte>(more(s, before) - before);
             const auto under_after = static_cast<Byte>(more(s, after) - s);
             kept[i] = under_after == 0 ? over_before : Byte{0};
@@ -153,28 +159,31 @@ void OrbCorners::keep_largest(const std::uint8_t* above, const std::uint8_t* her
             continue;
         }
         for (int i = 0; i < kBlock; ++i) {
-            if (kept[i] != 0) {
-                out.add({static_cast<std::int16_t>(x + i), static_cast<std::int16_t>(y), here[x + i]});
-            }
+            columns[count] = static_cast<std::uint16_t>(x + i);
+            count += kept[i] != 0 ? 1 : 0;
         }
+    }
+    for (int k = 0; k < count; ++k) {
+        const std::uint16_t x = columns[k];
+        out.add({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y), here.score[x]});
     }
 }
 
 void OrbCorners::detect(const ImageView& image, int threshold, CornerGrid& out) {
     out.clear();
-    std::uint8_t* above = rows_.data();
-    std::uint8_t* here = above + kMaxImageWidth;
-    std::uint8_t* below = here + kMaxImageWidth;
-    std::memset(above, 0, static_cast<std::size_t>(image.width));
-    score_row(image, kMargin_px, threshold, here);
+    ScoredRow* above = &rows_[0];
+    ScoredRow* here = &rows_[1];
+    ScoredRow* below = &rows_[2];
+    std::memset(above->score.data(), 0, static_cast<std::size_t>(image.width));
+    score_row(image, kMargin_px, threshold, *here);
     for (int y = kMargin_px; y < image.height - kMargin_px; ++y) {
         if (y + 1 < image.height - kMargin_px) {
-            score_row(image, y + 1, threshold, below);
+            score_row(image, y + 1, threshold, *below);
         } else {
-            std::memset(below, 0, static_cast<std::size_t>(image.width));
+            std::memset(below->score.data(), 0, static_cast<std::size_t>(image.width));
         }
-        keep_largest(above, here, below, image.width, y, out);
-        std::uint8_t* old = above;
+        keep_largest(*above, *here, *below, y, out);
+        ScoredRow* const old = above;
         above = here;
         here = below;
         below = old;

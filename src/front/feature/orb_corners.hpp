@@ -21,11 +21,16 @@ public:
     static constexpr int kMargin_px = 16;
 
 private:
-    void score_row(const ImageView& image, int y, int threshold, std::uint8_t* scores);
-    static void keep_largest(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, int width,
-                             int y, CornerGrid& out);
+    struct ScoredRow {
+        std::array<std::uint8_t, static_cast<std::size_t>(kMaxImageWidth)> score{};  // 0: no corner
+        std::array<std::uint16_t, static_cast<std::size_t>(kMaxImageWidth) / 16> block{};  // where blocks with scores begin
+        int blocks{0};
+    };
+    static void score_row(const ImageView& image, int y, int threshold, ScoredRow& out);
+    static void keep_largest(const ScoredRow& above, const ScoredRow& here, const ScoredRow& below, int y,
+                             CornerGrid& out);
 
-    std::array<std::uint8_t, static_cast<std::size_t>(kMaxImageWidth) * 3> rows_{};  // scores of three rows
+    std::array<ScoredRow, 3> rows_{};
 };
 
 }  // namespace semtrack

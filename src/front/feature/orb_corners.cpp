@@ -59,58 +59,44 @@ bool may_hold_corner(const Rows& rows, int x, int threshold) {
     return any(flags);
 }
 
-/// Of the circle's 16 pixels: the largest, over all arcs of 9, of an arc's smallest pixel. Two arcs that share 8 pixels,
-/// p[2k + 1] .. p[2k + 8], are looked at together.
-inline Byte brightest_arc(const Byte* p) {
-    Byte two[8] = {};
-    Byte four[8] = {};
-    Byte best = 0;
-    for (int k = 0; k < 8; ++k) {
-        two[k] = less(p[2 * k + 1], p[(2 * k + 2) & 15]);
-    }
-    for (int k = 0; k < 8; ++k) {
-        four[k] = less(two[k], two[(k + 1) & 7]);
-    }
-    for (int k = 0; k < 8; ++k) {
-        const Byte eight = less(four[k], four[(k + 2) & 7]);
-        best = more(best, less(eight, more(p[2 * k], p[(2 * k + 9) & 15])));
-    }
-    return best;
-}
+/// With kBright the largest, over all arcs of 9 of the circle p0 .. p15, of the arc's smallest pixel; else the smallest
+/// of the largest. Two arcs that share 8 pixels are looked at together. Written out: compilers make vectors of a loop's
+/// straight body more readily than of loops within.
+template <bool kBright>
+struct Arcs {
+    static constexpr Byte in(Byte a, Byte b) { return kBright ? less(a, b) : more(a, b); }
+    static constexpr Byte out(Byte a, Byte b) { return kBright ? more(a, b) : less(a, b); }
 
-/// The same with dark and bright exchanged.
-inline Byte darkest_arc(const Byte* p) {
-    Byte two[8] = {};
-    Byte four[8] = {};
-    Byte best = 255;
-    for (int k = 0; k < 8; ++k) {
-        two[k] = more(p[2 * k + 1], p[(2 * k + 2) & 15]);
+    static Byte best(const Byte* const* r, int x) {
+        const Byte p0 = r[0][x], p1 = r[0][x + 1], p2 = r[1][x + 2], p3 = r[2][x + 3];
+        const Byte p4 = r[3][x + 3], p5 = r[4][x + 3], p6 = r[5][x + 2], p7 = r[6][x + 1];
+        const Byte p8 = r[6][x], p9 = r[6][x - 1], p10 = r[5][x - 2], p11 = r[4][x - 3];
+        const Byte p12 = r[3][x - 3], p13 = r[2][x - 3], p14 = r[1][x - 2], p15 = r[0][x - 1];
+        const Byte two1 = in(p1, p2), two3 = in(p3, p4), two5 = in(p5, p6), two7 = in(p7, p8);
+        const Byte two9 = in(p9, p10), two11 = in(p11, p12), two13 = in(p13, p14), two15 = in(p15, p0);
+        const Byte four1 = in(two1, two3), four3 = in(two3, two5), four5 = in(two5, two7), four7 = in(two7, two9);
+        const Byte four9 = in(two9, two11), four11 = in(two11, two13), four13 = in(two13, two15);
+        const Byte four15 = in(two15, two1);
+        const Byte a = out(in(in(four1, four5), out(p0, p9)), in(in(four3, four7), out(p2, p11)));
+        const Byte b = out(in(in(four5, four9), out(p4, p13)), in(in(four7, four11), out(p6, p15)));
+        const Byte c = out(in(in(four9, four13), out(p8, p1)), in(in(four11, four15), out(p10, p3)));
+        const Byte d = out(in(in(four13, four1), out(p12, p5)), in(in(four15, four3), out(p14, p7)));
+        return out(out(a, b), out(c, d));
     }
-    for (int k = 0; k < 8; ++k) {
-        four[k] = more(two[k], two[(k + 1) & 7]);
-    }
-    for (int k = 0; k < 8; ++k) {
-        const Byte eight = more(four[k], four[(k + 2) & 7]);
-        best = less(best, more(eight, less(p[2 * k], p[(2 * k + 9) & 15])));
-    }
-    return best;
-}
+};
 
 void score_block(const Rows& rows, int x, int threshold, Byte* scores) {
     const Byte* const* r = rows.at;
     const auto t = static_cast<Byte>(threshold);
-    Byte out[kBlock];
+    Byte block[kBlock];
     for (int i = 0; i < kBlock; ++i) {
         const Byte c = r[3][x + i];
-        const Byte p[16] = {r[0][x + i],     r[0][x + i + 1], r[1][x + i + 2], r[2][x + i + 3], r[3][x + i + 3], r[4][x + i + 3],
-                            r[5][x + i + 2], r[6][x + i + 1], r[6][x + i],     r[6][x + i - 1], r[5][x + i - 2], r[4][x + i - 3],
-                            r[3][x + i - 3], r[2][x + i - 3], r[1][x + i - 2], r[0][x + i - 1]};
-        const auto brighter = static_cast<Byte>(more(brightest_arc(p), c) - c);
-        const auto darker = static_cast<Byte>(c - less(darkest_arc(p), c));
-        const Byte best = more(brighter, darker);
-        out[i] = static_cast<Byte>(best > t ? best - 1 : 0);
+        const auto brighter = static_cast<Byte>(more(Arcs<true>::best(r, x + i), c) - c);
+        const auto darker = static_cast<Byte>(c - less(Arcs<false>::best(r, x + i), c));
+        const Byte over = more(brighter, darker);
+        block[i] = static_cast<Byte>(over > t ? over - 1 : 0);
     }
-    std::memcpy(scores, out, sizeof(out));
+    std::memcpy(scores, block, sizeof(block));
 }
 
 }  // namespace
@@ -120,20 +106,19 @@ void score_block(const Rows& rows, int x, int threshold, Byte* scores) {
 void OrbCorners::score_row(const ImageView& image, int y, int threshold, ScoredRow& out) {
     const int end = image.width - kMargin_px;
     const Rows rows(image, y);
-    int blocks = 0;
+    Blocks possible;
     for (int x = kMargin_px; x < end; x += kBlock) {
-        out.block[static_cast<std::size_t>(blocks)] = static_cast<std::uint16_t>(x);
-        blocks += may_hold_corner(rows, x, threshold) ? 1 : 0;
+        possible.add_if(may_hold_corner(rows, x, threshold), x);
     }
-    std::memset(out.score.data(), 0, static_cast<std::size_t>(image.width));
-    out.blocks = 0;
-    for (int k = 0; k < blocks; ++k) {
-        const std::uint16_t x = out.block[static_cast<std::size_t>(k)];
-        score_block(rows, x, threshold, out.score.data() + x);
-        out.block[static_cast<std::size_t>(out.blocks)] = x;
-        out.blocks += any(out.score.data() + x) ? 1 : 0;
+    Byte* const score = out.score.data();
+    std::memset(score, 0, static_cast<std::size_t>(image.width));
+    out.blocks.count = 0;
+    for (int k = 0; k < possible.count; ++k) {
+        const int x = possible.x[k];
+        score_block(rows, x, threshold, score + x);
+        out.blocks.add_if(any(score + x), x);
     }
-    std::memset(out.score.data() + end, 0, kMargin_px);
+    std::memset(score + end, 0, kMargin_px);
 }
 
 // 3 x 3 suppression; of equal neighbours the earlier one in raster order stays. Again lists instead of branches.
@@ -141,8 +126,8 @@ void OrbCorners::keep_largest(const ScoredRow& above, const ScoredRow& here, con
                               CornerGrid& out) {
     std::uint16_t columns[kMaxImageWidth];
     int count = 0;
-    for (int k = 0; k < here.blocks; ++k) {
-        const int x = here.block[static_cast<std::size_t>(k)];
+    for (int k = 0; k < here.blocks.count; ++k) {
+        const int x = here.blocks.x[k];
         const Byte* up = above.score.data() + x;
         const Byte* at = here.score.data() + x;
         const Byte* down = below.score.data() + x;

@@ -21,10 +21,18 @@ public:
     static constexpr int kMargin_px = 16;
 
 private:
+    /// Where blocks of 16 pixels begin. Adding has no branch.
+    struct Blocks {
+        std::uint16_t x[kMaxImageWidth / 16];  // not initialised: only the first `count` are read
+        int count{0};
+        void add_if(bool wanted, int column) {
+            x[count] = static_cast<std::uint16_t>(column);
+            count += wanted ? 1 : 0;
+        }
+    };
     struct ScoredRow {
         std::array<std::uint8_t, static_cast<std::size_t>(kMaxImageWidth)> score{};  // 0: no corner
-        std::array<std::uint16_t, static_cast<std::size_t>(kMaxImageWidth) / 16> block{};  // where blocks with scores begin
-        int blocks{0};
+        Blocks blocks{};                                                             // that hold scores
     };
     static void score_row(const ImageView& image, int y, int threshold, ScoredRow& out);
     static void keep_largest(const ScoredRow& above, const ScoredRow& here, const ScoredRow& below, int y,

@@ -11,6 +11,7 @@
 #include "sil/regression/baseline.hpp"
 #include "sil/regression/child_process.hpp"
 #include "sil/regression/frame_times.hpp"
+#include "sil/regression/match_means.hpp"
 #include "sil/regression/verdict.hpp"
 #include "sil/report/progress.hpp"
 #include "sil/report/text_output.hpp"
@@ -200,6 +201,7 @@ GroupMetrics pooled(const RunOptions& o, const ScenarioFile& file, const std::ve
             metrics = Json::parse(to_json(all));
         } else {
             metrics["timing"] = times[cases.front()].metrics();
+            metrics["matches"] = match_means(o.out / file.cases[cases.front()].name / "ego.csv");
         }
         out.emplace_back(group, metrics);
     }

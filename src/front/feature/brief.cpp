@@ -4,43 +4,68 @@ namespace semtrack {
 
 namespace {
 
-/// Largest |dx| of the disc in each row.
-constexpr std::array<int, static_cast<std::size_t>(kBriefRadius_px) + 1> disc_widths() {
-    std::array<int, static_cast<std::size_t>(kBriefRadius_px) + 1> width{};
-    for (int dy = 0; dy <= kBriefRadius_px; ++dy) {
-        int dx = 0;
-        while ((dx + 1) * (dx + 1) + dy * dy <= kBriefRadius_px * kBriefRadius_px) {
-            ++dx;
-        }
-        width[static_cast<std::size_t>(dy)] = dx;
-    }
-    return width;
+constexpr int kColumns = BriefPatch::kColumns;
+constexpr int kHalfTaps = 3;  // of the filter of 7
+
+constexpr std::size_t sized(int i) {
+    return static_cast<std::size_t>(i);
 }
-constexpr auto kDiscWidth = disc_widths();
+
+/// 255 inside the disc of kBriefRadius_px, 0 outside, by row (0: the centre's) and column (from x - 16): rows of a fixed
+/// length, so that 16 columns are one step.
+using DiscRow = std::array<std::uint8_t, sized(kColumns)>;
+constexpr std::array<DiscRow, sized(kBriefRadius_px) + 1> make_disc() {
+    std::array<DiscRow, sized(kBriefRadius_px) + 1> disc{};
+    for (int dy = 0; dy <= kBriefRadius_px; ++dy) {
+        for (int i = 0; i < kColumns; ++i) {
+            const int dx = i - kColumns / 2;
+            disc[sized(dy)][sized(i)] = dx * dx + dy * dy <= kBriefRadius_px * kBriefRadius_px ? 255 : 0;
+        }
+    }
+    return disc;
+}
+constexpr auto kDisc = make_disc();
 
 constexpr int rounded(int x) {
     return (x + (1 << (kDirectionBits - 1))) >> kDirectionBits;
 }
 
-}  // namespace
+/// Where a comparison looks in a BriefPatch.
+struct Place {
+    std::uint16_t a{0};
+    std::uint16_t b{0};
+};
+using Places = std::array<Place, sized(kBriefBits)>;
 
-int patch_direction(const ImageView& image, int x, int y) {
-    std::int32_t m10 = 0;  // moments: at most 255 x 709 pixels x 15
-    std::int32_t m01 = 0;
-    for (int dy = -kBriefRadius_px; dy <= kBriefRadius_px; ++dy) {
-        const int width = kDiscWidth[static_cast<std::size_t>(dy < 0 ? -dy : dy)];
-        const std::uint8_t* row = image.row(y + dy) + x;
-        std::int32_t sum = 0;
-        for (int dx = -width; dx <= width; ++dx) {
-            const std::int32_t value = row[dx];
-            m10 += dx * value;
-            sum += value;
+constexpr std::uint16_t turned_index(int x, int y, const Direction& d) {
+    return static_cast<std::uint16_t>(
+        BriefPatch::index(rounded(x * d.cos - y * d.sin), rounded(x * d.sin + y * d.cos)));
+}
+
+constexpr std::array<Places, sized(kDirections)> make_places() {
+    std::array<Places, sized(kDirections)> places{};
+    for (int k = 0; k < kDirections; ++k) {
+        const Direction d = direction(k);
+        for (std::size_t bit = 0; bit < kBriefPattern.size(); ++bit) {
+            const BriefPair& p = kBriefPattern[bit];
+            places[sized(k)][bit].a = turned_index(p.ax, p.ay, d);
+            places[sized(k)][bit].b = turned_index(p.bx, p.by, d);
         }
-        m01 += dy * sum;
     }
+    return places;
+}
+constexpr auto kPlaces = make_places();
+
+/// Of the quadrant's nine directions the one that the moment points along most; of equal ones the first in the circle.
+int nearest_direction(std::int32_t m10, std::int32_t m01) {
+    const int quadrant = m01 >= 0 ? (m10 >= 0 ? 0 : 1) : (m10 < 0 ? 2 : 3);
     int best = 0;
     std::int64_t largest = 0;
-    for (int k = 0; k < kDirections; ++k) {
+    if (quadrant == 3) {  // its last direction is the circle's first
+        largest = static_cast<std::int64_t>(m10) * direction(0).cos;
+    }
+    const int end = quadrant == 3 ? kDirections - 1 : 8 * quadrant + 8;
+    for (int k = 8 * quadrant; k <= end; ++k) {
         const Direction d = direction(k);
         const std::int64_t along = static_cast<std::int64_t>(m10) * d.cos + static_cast<std::int64_t>(m01) * d.sin;
         if (along > largest) {
@@ -51,21 +76,81 @@ int patch_direction(const ImageView& image, int x, int y) {
     return best;
 }
 
-void describe(const ImageView& smoothed, int x, int y, int turned_to, Descriptor& out) {
-    const Direction d = direction(turned_to);
-    const std::uint8_t* centre = smoothed.row(y) + x;
-    const std::ptrdiff_t stride = smoothed.stride;
+}  // namespace
+
+// Both moments stay in 16 bits a column: at most 31 x 255, and 255 x (1 + 2 + .. + 15) = 30600.
+int patch_direction(const ImageView& image, int x, int y) {
+    std::int16_t sums[kColumns];
+    std::int16_t downs[kColumns];
+    const std::uint8_t* middle = image.row(y) + x - kColumns / 2;
+    for (int i = 0; i < kColumns; ++i) {
+        sums[i] = static_cast<std::int16_t>(middle[i] & kDisc[0][sized(i)]);
+        downs[i] = 0;
+    }
+    for (int dy = 1; dy <= kBriefRadius_px; ++dy) {
+        const std::uint8_t* above = image.row(y - dy) + x - kColumns / 2;
+        const std::uint8_t* below = image.row(y + dy) + x - kColumns / 2;
+        const std::uint8_t* inside = kDisc[sized(dy)].data();
+        const auto weight = static_cast<std::int16_t>(dy);
+        for (int i = 0; i < kColumns; ++i) {
+            const auto a = static_cast<std::int16_t>(above[i] & inside[i]);
+            const auto b = static_cast<std::int16_t>(below[i] & inside[i]);
+            sums[i] = static_cast<std::int16_t>(sums[i] + a + b);
+            downs[i] = static_cast<std::int16_t>(downs[i] + static_cast<std::int16_t>(b - a) * weight);
+        }
+    }
+    std::int32_t m10 = 0;
+    std::int32_t m01 = 0;
+    for (int i = 0; i < kColumns; ++i) {
+        m10 += (i - kColumns / 2) * sums[i];
+        m01 += downs[i];
+    }
+    return nearest_direction(m10, m01);
+}
+
+// Sums stay in 16 bits (255 x 64, then 1020 x 64): twice the lanes.
+void BriefPatch::smooth(const ImageView& image, int x, int y) {
+    constexpr int kWide = kColumns + 2 * kHalfTaps;
+    constexpr int kHigh = kRows + 2 * kHalfTaps;
+    std::uint16_t rows[kHigh][kColumns];
+    std::uint8_t padded[kWide];
+    const int left = x - kCentreColumn - kHalfTaps;
+    const bool whole = left >= 0 && left + kWide <= image.width;
+    for (int r = 0; r < kHigh; ++r) {
+        const int row = y + r - kBriefReach_px - kHalfTaps;
+        const std::uint8_t* from = image.row(row < 0 ? 0 : row < image.height ? row : image.height - 1);
+        const std::uint8_t* p = from + left;
+        if (!whole) {
+            for (int i = 0; i < kWide; ++i) {
+                const int column = left + i;
+                padded[i] = from[column < 0 ? 0 : column < image.width ? column : image.width - 1];
+            }
+            p = padded;
+        }
+        for (int i = 0; i < kColumns; ++i) {
+            const auto sum = static_cast<std::uint16_t>(p[i] + p[i + 6] + 6 * (p[i + 1] + p[i + 5]) +
+                                                        15 * (p[i + 2] + p[i + 4]) + 20 * p[i + 3] + 8);
+            rows[r][i] = static_cast<std::uint16_t>(sum >> 4U);
+        }
+    }
+    for (int r = 0; r < kRows; ++r) {
+        std::uint8_t* to = pixels_.data() + r * kColumns;
+        for (int i = 0; i < kColumns; ++i) {
+            const auto sum = static_cast<std::uint16_t>(
+                rows[r][i] + rows[r + 6][i] + 6 * (rows[r + 1][i] + rows[r + 5][i]) +
+                15 * (rows[r + 2][i] + rows[r + 4][i]) + 20 * rows[r + 3][i] + 128);
+            to[i] = static_cast<std::uint8_t>(sum >> 8U);
+        }
+    }
+}
+
+void BriefPatch::describe(int turned_to, Descriptor& out) const {
+    const Places& places = kPlaces[sized(turned_to)];
     for (std::size_t word = 0; word < out.size(); ++word) {
         std::uint32_t bits = 0;
-        for (std::size_t bit = 0; bit < 32; ++bit) {
-            const BriefPair& p = kBriefPattern[32 * word + bit];
-            std::ptrdiff_t a = p.ay * stride + p.ax;
-            std::ptrdiff_t b = p.by * stride + p.bx;
-            if (turned_to != 0) {
-                a = rounded(p.ax * d.sin + p.ay * d.cos) * stride + rounded(p.ax * d.cos - p.ay * d.sin);
-                b = rounded(p.bx * d.sin + p.by * d.cos) * stride + rounded(p.bx * d.cos - p.by * d.sin);
-            }
-            bits |= (centre[a] < centre[b] ? 1U : 0U) << bit;
+        for (std::size_t bit = 32; bit > 0; --bit) {  // from the top: a comparison's carry is the next lowest bit
+            const Place& place = places[32 * word + bit - 1];
+            bits = 2 * bits + (pixels_[place.a] < pixels_[place.b] ? 1U : 0U);
         }
         out[word] = bits;
     }

@@ -2,6 +2,7 @@
 #ifndef SEMTRACK_FRONT_FEATURE_BRIEF_HPP
 #define SEMTRACK_FRONT_FEATURE_BRIEF_HPP
 
+#include <array>
 #include <cstdint>
 
 #include "front/feature/brief_pattern.hpp"
@@ -11,12 +12,30 @@
 namespace semtrack {
 
 /// Direction (0..kDirections - 1) from the centre of the disc of kBriefRadius_px to its centroid of intensity; 0 when
-/// they coincide. The disc must lie inside the image.
+/// they coincide. The columns x - 16 .. x + 15 and rows y - 15 .. y + 15 must lie inside the image.
 [[nodiscard]] int patch_direction(const ImageView& image, int x, int y);
 
-/// Comparisons around (x, y) in the smoothed image, the pattern turned to a direction (0: upright). The disc of
-/// kBriefRadius_px must lie inside the image.
-void describe(const ImageView& smoothed, int x, int y, int turned_to, Descriptor& out);
+/// The smoothed image around one corner. Corners are few: smoothing their surroundings costs a third of smoothing every
+/// level, and the patch stays in the nearest cache. Its fixed stride makes each sample's place a constant.
+class BriefPatch {
+public:
+    static constexpr int kColumns = 32;                 ///< x - 16 .. x + 15: whole vectors of bytes
+    static constexpr int kRows = 2 * kBriefReach_px + 1;
+    static constexpr int kCentreColumn = kColumns / 2;
+
+    /// Binomial filter of 7 x 7 (sigma 1.2 px), the image's border replicated. (x, y) must lie inside the image.
+    void smooth(const ImageView& image, int x, int y);
+    /// Smoothed pixel at (x + dx, y + dy), -16 <= dx < 16, |dy| <= kBriefReach_px.
+    [[nodiscard]] std::uint8_t at(int dx, int dy) const { return pixels_[index(dx, dy)]; }
+    [[nodiscard]] static constexpr std::size_t index(int dx, int dy) {
+        return static_cast<std::size_t>((dy + kBriefReach_px) * kColumns + dx + kCentreColumn);
+    }
+    /// Comparisons around the centre, the pattern turned to a direction (0: upright).
+    void describe(int turned_to, Descriptor& out) const;
+
+private:
+    std::array<std::uint8_t, static_cast<std::size_t>(kColumns) * kRows> pixels_{};
+};
 
 /// Bits that differ, 0..256.
 [[nodiscard]] inline int hamming(const Descriptor& a, const Descriptor& b) {

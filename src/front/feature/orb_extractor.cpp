@@ -1,6 +1,5 @@
 #include "front/feature/orb_extractor.hpp"
 
-#include "front/feature/brief.hpp"
 #include "math/sort.hpp"
 
 namespace semtrack {
@@ -46,17 +45,34 @@ FeatureBudget OrbExtractor::share_of_level(int level, int levels) const {
     return share;
 }
 
+// The owner of a level's pixel is that of the full-resolution pixel its centre falls into. Only corners are asked for:
+// the rest of the level's mask is never written.
+OwnerMaskView OrbExtractor::owners_of_level(const ImageView& image, const OwnerMaskView& mask, int level) {
+    if (level == 0) {
+        return mask;
+    }
+    for (int cell = 0; cell < corners_.cells(); ++cell) {
+        for (int i = 0; i < corners_.count(cell); ++i) {
+            const Corner& c = corners_.corner(cell, i);
+            const int x = full_position_64(c.x, full_width_, image.width) >> 6;
+            const int y = full_position_64(c.y, full_height_, image.height) >> 6;
+            coarse_mask_[at(c.y * image.width + c.x)] = mask.at(x, y);
+        }
+    }
+    return {coarse_mask_.data(), image.width, image.height};
+}
+
 void OrbExtractor::extract_level(const ImageView& image, const OwnerMaskView& mask, int level, int levels) {
     if (fast_.detect(image, options_.threshold, kMargin_px, corners_) != Status::kOk) {
         return;
     }
-    selector_.begin(image.width, image.height);
-    selector_.select(corners_, mask, share_of_level(level, levels), selected_);
-    if (selected_.empty()) {
-        return;
+    const OwnerMaskView owners = owners_of_level(image, mask, level);
+    if (options_.spread) {
+        selector_.begin(image.width, image.height);
+        selector_.select(corners_, owners, share_of_level(level, levels), selected_);
+    } else {
+        strongest_.select(corners_, owners, share_of_level(level, levels), selected_);
     }
-    smoother_.smooth(image, smoothed_.data());
-    const ImageView smoothed{smoothed_.data(), image.width, image.height, image.width};
     for (const SelectedCorner& s : selected_) {
         const int u64 = full_position_64(s.corner.x, full_width_, image.width) - 32;
         const int v64 = full_position_64(s.corner.y, full_height_, image.height) - 32;
@@ -67,7 +83,8 @@ void OrbExtractor::extract_level(const ImageView& image, const OwnerMaskView& ma
         k.level = static_cast<std::uint8_t>(level);
         k.score = s.corner.score;
         const int direction = options_.upright ? 0 : patch_direction(image, s.corner.x, s.corner.y);
-        describe(smoothed, s.corner.x, s.corner.y, direction, k.descriptor);
+        patch_.smooth(image, s.corner.x, s.corner.y);
+        patch_.describe(direction, k.descriptor);
         if (!found_.try_push_back(k)) {
             return;
         }
@@ -110,18 +127,15 @@ Status OrbExtractor::extract(const ImageView& image, const OwnerMaskView& mask, 
         levels += level_size(smaller, l) > 2 * kMargin_px ? 1 : 0;
     }
     ImageView current = image;
-    OwnerMaskView owners = mask;
     for (int level = 0; level < levels; ++level) {
         if (level > 0) {
             const int width = level_size(image.width, level);
             const int height = level_size(image.height, level);
             std::uint8_t* to = level % 2 == 1 ? odd_level_.data() : even_level_.data();
             resizer_.resize(current, width, height, to);
-            resize_mask(mask, width, height, coarse_mask_.data());
             current = {to, width, height, width};
-            owners = {coarse_mask_.data(), width, height};
         }
-        extract_level(current, owners, level, levels);
+        extract_level(current, mask, level, levels);
     }
     write_sorted(out);
     return Status::kOk;

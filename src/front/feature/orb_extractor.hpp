@@ -7,8 +7,10 @@
 #include <array>
 #include <cstdint>
 
+#include "front/feature/brief.hpp"
 #include "front/feature/fast.hpp"
 #include "front/feature/orb_image.hpp"
+#include "front/feature/orb_strongest.hpp"
 #include "front/feature/select.hpp"
 #include "semtrack/hal/feature_extractor.hpp"
 
@@ -18,6 +20,7 @@ struct OrbOptions {
     int levels{4};       ///< 1..kMaxPyramidLevels; fewer than the usual 8: a car's images hardly change in scale
     bool upright{true};  ///< false: descriptors turn with the patch. A car does not roll, and turning costs matches
     int threshold{10};   ///< FAST, grey levels
+    bool spread{true};   ///< over cells; false: the strongest wherever they are, as cv::ORB chooses
 };
 
 class OrbExtractor final : public FeatureExtractor {
@@ -38,6 +41,7 @@ private:
 
     [[nodiscard]] bool acceptable(const ImageView& image, const OwnerMaskView& mask) const;
     [[nodiscard]] FeatureBudget share_of_level(int level, int levels) const;
+    [[nodiscard]] OwnerMaskView owners_of_level(const ImageView& image, const OwnerMaskView& mask, int level);
     void extract_level(const ImageView& image, const OwnerMaskView& mask, int level, int levels);
     void write_sorted(Keypoints& out);
 
@@ -45,15 +49,15 @@ private:
     FastDetector fast_{};
     CornerGrid corners_{};
     CornerSelector selector_{};
+    StrongestCorners strongest_{};
     SelectedCorners selected_{};
     ImageResizer resizer_{};
-    ImageSmoother smoother_{};
+    BriefPatch patch_{};
     // Only a level and the one before it exist at once; the finest is the caller's.
     std::array<std::uint8_t, static_cast<std::size_t>(kCoarseWidth) * kCoarseHeight> odd_level_{};
     std::array<std::uint8_t, static_cast<std::size_t>(level_size(kMaxImageWidth, 2)) * level_size(kMaxImageHeight, 2)>
         even_level_{};
     std::array<std::uint8_t, static_cast<std::size_t>(kCoarseWidth) * kCoarseHeight> coarse_mask_{};
-    std::array<std::uint8_t, static_cast<std::size_t>(kMaxImageWidth) * kMaxImageHeight> smoothed_{};
     FeatureBudget left_over_{};
     int full_width_{0};
     int full_height_{0};

@@ -1,13 +1,11 @@
-// Levels of the pyramid, rendered one from the other, and the smoothing before descriptors. Integers only.
+// Levels of the pyramid, rendered one from the other. Integers only.
 #ifndef SEMTRACK_FRONT_FEATURE_ORB_IMAGE_HPP
 #define SEMTRACK_FRONT_FEATURE_ORB_IMAGE_HPP
 
 #include <array>
 #include <cstdint>
 
-#include "front/feature/brief_pattern.hpp"
 #include "semtrack/capacity.hpp"
-#include "semtrack/hal/feature_extractor.hpp"
 #include "semtrack/image_view.hpp"
 
 namespace semtrack {
@@ -39,29 +37,16 @@ public:
 
 private:
     struct Tap {
-        std::int16_t at{0};      ///< left or upper of the two
-        std::int16_t next{0};    ///< 1; 0 at the border
-        std::int16_t weight{0};  ///< of the other, 1/128
+        std::int32_t at{0};      ///< left or upper of the two
+        std::int32_t weight{0};  ///< of the other, 1/128
+    };
+    struct Column {
+        std::uint64_t weights{0};  ///< right one's | left one's x 2^32
+        std::int64_t at{0};
     };
     [[nodiscard]] static Tap tap(int x, int in_size, int size);
-    std::array<Tap, static_cast<std::size_t>(kMaxImageWidth)> columns_{};
-};
-
-/// Owners of the level's pixels: that of the full-resolution pixel their centre falls into.
-void resize_mask(const OwnerMaskView& in, int width, int height, std::uint8_t* out);
-
-/// Binomial filter of 7 x 7 (sigma 1.2 px), the border replicated.
-class ImageSmoother {
-public:
-    /// out: as large as the image, with the width as stride. Cost O(pixels).
-    void smooth(const ImageView& in, std::uint8_t* out);
-
-private:
-    static constexpr int kTaps = 7;
-    void filter_row(const ImageView& in, int y);
-    std::array<std::array<std::uint16_t, static_cast<std::size_t>(kMaxImageWidth)>, static_cast<std::size_t>(kTaps)>
-        rows_{};
-    std::array<std::uint8_t, static_cast<std::size_t>(kMaxImageWidth) + kTaps - 1> padded_{};
+    std::array<Column, static_cast<std::size_t>(kMaxImageWidth)> columns_{};
+    std::array<std::uint32_t, static_cast<std::size_t>(kMaxImageWidth) + 1> blended_{};  // two rows in one, x 128
 };
 
 }  // namespace semtrack

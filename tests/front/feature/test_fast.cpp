@@ -100,6 +100,51 @@ TEST_F(Fast, EveryCornerHasTheScoreOfTheDefinition) {
     }
 }
 
+TEST_F(Fast, NoCornerIsMissedOrInventedWhateverTheImagesWidthAndTheThreshold) {
+    constexpr int kMargin = 5;
+    int corners = 0;
+    for (int width = 2 * kMargin + 16; width < 64; ++width) {
+        Picture p = noise(width, 24, static_cast<std::uint32_t>(width));
+        const int threshold = width % 3 == 0 ? 1 : width % 3 == 1 ? 30 : 80;
+        std::vector<int> score(static_cast<std::size_t>(width) * 24U, 0);
+        const auto at = [&](int x, int y) -> int& { return score[static_cast<std::size_t>(y * width + x)]; };
+        for (int y = kMargin; y < 24 - kMargin; ++y) {
+            for (int x = kMargin; x < width - kMargin; ++x) {
+                const int s = reference_score(p, x, y);
+                at(x, y) = s >= threshold ? s : 0;
+            }
+        }
+        std::set<std::array<int, 3>> expected;
+        for (int y = kMargin; y < 24 - kMargin; ++y) {
+            for (int x = kMargin; x < width - kMargin; ++x) {
+                bool largest = at(x, y) > 0;
+                for (int k = 0; k < 9; ++k) {
+                    const int other = at(x + k % 3 - 1, y + k / 3 - 1);
+                    largest = largest && (k < 4 ? other < at(x, y) : other <= at(x, y));
+                }
+                if (largest) {
+                    expected.insert({x, y, at(x, y)});
+                }
+            }
+        }
+        ASSERT_EQ(detector_->detect(p.view(), threshold, kMargin, *grid_), Status::kOk);
+        std::set<int> full;  // cells that may have dropped some
+        for (int cell = 0; cell < grid_->cells(); ++cell) {
+            if (grid_->count(cell) == CornerGrid::kPerCell) {
+                full.insert(cell);
+            }
+        }
+        std::size_t found = 0;
+        for (const Corner& c : all(*grid_)) {
+            EXPECT_EQ(expected.count({c.x, c.y, c.score}), 1U) << width << ": " << c.x << " " << c.y;
+            ++found;
+        }
+        EXPECT_TRUE(found == expected.size() || (!full.empty() && found < expected.size())) << width;
+        corners += static_cast<int>(found);
+    }
+    EXPECT_GT(corners, 300);
+}
+
 TEST_F(Fast, CornersOfARectangleAreFoundAndItsEdgesAreNot) {
     Picture p(160, 120, 60);
     p.rectangle(40, 30, 110, 90, 200);
@@ -120,6 +165,8 @@ TEST_F(Fast, FlatImageHasNoCornersAndAnImageBeyondTheCapacityIsRefused) {
     EXPECT_EQ(detector_->detect(ImageView{}, 10, 3, *grid_), Status::kInvalidArgument);
     const Picture wide(kMaxImageWidth + 1, 8, 128);
     EXPECT_EQ(detector_->detect(wide.view(), 10, 3, *grid_), Status::kInvalidArgument);
+    const Picture narrow(2 * 5 + 15, 80, 128);
+    EXPECT_EQ(detector_->detect(narrow.view(), 10, 5, *grid_), Status::kInvalidArgument);
 }
 
 TEST_F(Fast, MarginIsKeptAndNeighboursAreSuppressed) {

@@ -57,9 +57,97 @@ TEST(PatchDirection, FollowsTheGradientAllRound) {
     }
 }
 
+TEST(PatchDirection, IsTheDirectionAlongWhichTheMomentOfTheDiscIsLargest) {
+    std::vector<std::uint8_t> in(40 * 40);
+    Rng rng(8);
+    for (int round = 0; round < 300; ++round) {
+        for (std::uint8_t& p : in) {
+            p = static_cast<std::uint8_t>(round % 3 == 0 ? 255 * rng.below(2) : rng.below(256));
+        }
+        std::int64_t m10 = 0;
+        std::int64_t m01 = 0;
+        for (int dy = -kBriefRadius_px; dy <= kBriefRadius_px; ++dy) {
+            for (int dx = -kBriefRadius_px; dx <= kBriefRadius_px; ++dx) {
+                if (dx * dx + dy * dy <= kBriefRadius_px * kBriefRadius_px) {
+                    const std::int64_t value = in[static_cast<std::size_t>(40 * (20 + dy) + 20 + dx)];
+                    m10 += dx * value;
+                    m01 += dy * value;
+                }
+            }
+        }
+        int best = 0;
+        std::int64_t largest = 0;
+        for (int k = 0; k < kDirections; ++k) {
+            const std::int64_t along = m10 * direction(k).cos + m01 * direction(k).sin;
+            best = along > largest ? k : best;
+            largest = std::max(largest, along);
+        }
+        ASSERT_EQ(patch_direction({in.data(), 40, 40, 40}, 20, 20), best) << round;
+    }
+}
+
 TEST(PatchDirection, GivenAConstantPatchIsUpright) {
     const Patch p([](double, double) { return 255.0; });
     EXPECT_EQ(patch_direction(p.view(), 32, 32), 0);
+}
+
+TEST(BriefPatch, IsTheBinomialFilterToOneGreyLevelWithTheBorderReplicated) {
+    constexpr int kWidth = 61;
+    constexpr int kHeight = 53;
+    std::vector<std::uint8_t> in(kWidth * kHeight);
+    Rng rng(6);
+    for (std::uint8_t& p : in) {
+        p = static_cast<std::uint8_t>(rng.below(256));
+    }
+    const int w[7] = {1, 6, 15, 20, 15, 6, 1};
+    const auto exact = [&](int x, int y) {
+        double sum = 0;
+        for (int j = -3; j <= 3; ++j) {
+            for (int i = -3; i <= 3; ++i) {
+                const int cx = std::min(std::max(x + i, 0), kWidth - 1);
+                const int cy = std::min(std::max(y + j, 0), kHeight - 1);
+                sum += w[i + 3] * w[j + 3] * in[static_cast<std::size_t>(kWidth * cy + cx)];
+            }
+        }
+        return sum / 4096.0;
+    };
+    BriefPatch patch;
+    for (const int y : {16, 26, 36}) {
+        for (int x = 16; x < kWidth - 16; ++x) {
+            patch.smooth({in.data(), kWidth, kHeight, kWidth}, x, y);
+            for (int dy = -kBriefReach_px; dy <= kBriefReach_px; ++dy) {
+                for (int dx = -kBriefReach_px; dx <= kBriefReach_px; ++dx) {
+                    ASSERT_NEAR(patch.at(dx, dy), exact(x + dx, y + dy), 0.7) << x << ' ' << y;
+                }
+            }
+        }
+    }
+    const std::vector<std::uint8_t> white(in.size(), 255);
+    patch.smooth({white.data(), kWidth, kHeight, kWidth}, 30, 26);
+    EXPECT_EQ(patch.at(-16, -14), 255);
+    EXPECT_EQ(patch.at(15, 14), 255);
+}
+
+TEST(BriefPatch, ComparesEachPairWhereTheTurnedPatternHasIt) {
+    std::vector<std::uint8_t> in(64 * 64);
+    Rng rng(7);
+    for (std::uint8_t& p : in) {
+        p = static_cast<std::uint8_t>(rng.below(256));
+    }
+    BriefPatch patch;
+    patch.smooth({in.data(), 64, 64, 64}, 31, 33);
+    const auto rounded = [](int x) { return (x + (1 << 13)) >> 14; };
+    for (int k = 0; k < kDirections; ++k) {
+        const Direction d = direction(k);
+        Descriptor out{};
+        patch.describe(k, out);
+        for (std::size_t bit = 0; bit < 256; ++bit) {
+            const BriefPair& p = kBriefPattern[bit];
+            const int a = patch.at(rounded(p.ax * d.cos - p.ay * d.sin), rounded(p.ax * d.sin + p.ay * d.cos));
+            const int b = patch.at(rounded(p.bx * d.cos - p.by * d.sin), rounded(p.bx * d.sin + p.by * d.cos));
+            ASSERT_EQ((out[bit / 32] >> (bit % 32)) & 1U, a < b ? 1U : 0U) << k << ' ' << bit;
+        }
+    }
 }
 
 TEST(Describe, TurnedWithThePatchStaysNearlyTheSame) {
@@ -71,19 +159,24 @@ TEST(Describe, TurnedWithThePatchStaysNearlyTheSame) {
         });
     };
     const double step = 2.0 * std::acos(-1.0) / kDirections;
+    const auto describe = [](const Patch& p, int direction_of, Descriptor& out) {
+        BriefPatch patch;
+        patch.smooth(p.view(), 32, 32);
+        patch.describe(direction_of, out);
+    };
     Descriptor upright{};
     const Patch first = at_angle(0.0);
     const int start = patch_direction(first.view(), 32, 32);
-    describe(first.view(), 32, 32, start, upright);
+    describe(first, start, upright);
     for (const int turn : {1, 5, 8, 13, 24, 31}) {
         const Patch turned = at_angle(step * turn);
         const int now = patch_direction(turned.view(), 32, 32);
         EXPECT_EQ(now, (start + turn) % kDirections);
         Descriptor d{};
-        describe(turned.view(), 32, 32, now, d);
+        describe(turned, now, d);
         EXPECT_LT(hamming(d, upright), 30) << turn;
         Descriptor not_turned{};
-        describe(turned.view(), 32, 32, start, not_turned);
+        describe(turned, start, not_turned);
         if (turn == 8 || turn == 13) {
             EXPECT_GT(hamming(not_turned, upright), 60) << turn;
         }

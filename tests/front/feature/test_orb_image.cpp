@@ -55,36 +55,6 @@ TEST(OrbPyramid, ResizingKeepsRampsConstantsAndPositions) {
     }
 }
 
-TEST(OrbSmoother, IsTheBinomialFilterToOneGreyLevel) {
-    constexpr int kWidth = 61;
-    constexpr int kHeight = 23;
-    std::vector<std::uint8_t> in(kWidth * kHeight);
-    Rng rng(6);
-    for (std::uint8_t& p : in) {
-        p = static_cast<std::uint8_t>(rng.below(256));
-    }
-    std::vector<std::uint8_t> out(in.size());
-    auto smoother = std::make_unique<ImageSmoother>();
-    smoother->smooth({in.data(), kWidth, kHeight, kWidth}, out.data());
-    const int w[7] = {1, 6, 15, 20, 15, 6, 1};
-    for (int y = 0; y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) {
-            double sum = 0;
-            for (int j = -3; j <= 3; ++j) {
-                for (int i = -3; i <= 3; ++i) {
-                    const int cx = std::min(std::max(x + i, 0), kWidth - 1);
-                    const int cy = std::min(std::max(y + j, 0), kHeight - 1);
-                    sum += w[i + 3] * w[j + 3] * in[static_cast<std::size_t>(kWidth * cy + cx)];
-                }
-            }
-            ASSERT_NEAR(out[static_cast<std::size_t>(kWidth * y + x)], sum / 4096.0, 0.7) << x << ' ' << y;
-        }
-    }
-    const std::vector<std::uint8_t> white(in.size(), 255);
-    smoother->smooth({white.data(), kWidth, kHeight, kWidth}, out.data());
-    EXPECT_EQ(out, white);
-}
-
 TEST(OrbExtractor, RefusesOptionsAndImagesOutOfRange) {
     std::vector<std::uint8_t> pixels(static_cast<std::size_t>(kMaxImageWidth + 1) * 100, 7);
     std::vector<std::uint8_t> owners(pixels.size());

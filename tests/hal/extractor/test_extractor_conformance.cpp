@@ -11,6 +11,7 @@
 
 #include "front/feature/orb_extractor.hpp"
 #include "math/rng.hpp"
+#include "tests/hal/extractor/fake_hardware.hpp"
 #ifdef SEMTRACK_HAS_OPENCV
 #include "hal/opencv/opencv_extractor.hpp"
 #endif
@@ -59,7 +60,7 @@ struct Picture {
     [[nodiscard]] OwnerMaskView mask() const { return {owners.data(), width, height}; }
 };
 
-enum class Kind { kNative, kNativeTurned, kNativeEightLevels, kNativeOneLevel, kOpenCv };
+enum class Kind { kNative, kNativeTurned, kNativeStrongest, kNativeEightLevels, kNativeOneLevel, kHardware, kOpenCv };
 
 class ExtractorConformance : public ::testing::TestWithParam<Kind> {
 protected:
@@ -67,8 +68,12 @@ protected:
         OrbOptions options;
         options.upright = GetParam() != Kind::kNativeTurned;
         options.levels = GetParam() == Kind::kNativeEightLevels ? 8 : GetParam() == Kind::kNativeOneLevel ? 1 : 4;
+        options.spread = GetParam() != Kind::kNativeStrongest;
         native_ = std::make_unique<OrbExtractor>(options);
         extractor_ = native_.get();
+        if (GetParam() == Kind::kHardware) {
+            extractor_ = &hardware_;
+        }
 #ifdef SEMTRACK_HAS_OPENCV
         if (GetParam() == Kind::kOpenCv) {
             opencv_ = std::make_unique<OpenCvExtractor>();
@@ -117,6 +122,7 @@ protected:
     }
 
     std::unique_ptr<OrbExtractor> native_;
+    FakeHardwareExtractor hardware_;
 #ifdef SEMTRACK_HAS_OPENCV
     std::unique_ptr<OpenCvExtractor> opencv_;
 #endif
@@ -279,14 +285,16 @@ TEST_P(ExtractorConformance, DescribesTheSamePatchAlikeWhereverItIs) {
 }
 
 std::string name_of(const ::testing::TestParamInfo<Kind>& info) {
-    static const char* const kNames[] = {"Native", "NativeTurned", "NativeEightLevels", "NativeOneLevel", "OpenCv"};
+    static const char* const kNames[] = {"Native",         "NativeTurned", "NativeStrongest", "NativeEightLevels",
+                                         "NativeOneLevel", "Hardware",     "OpenCv"};
     return kNames[static_cast<int>(info.param)];
 }
 
 INSTANTIATE_TEST_SUITE_P(Native, ExtractorConformance,
-                         ::testing::Values(Kind::kNative, Kind::kNativeTurned, Kind::kNativeEightLevels,
-                                           Kind::kNativeOneLevel),
+                         ::testing::Values(Kind::kNative, Kind::kNativeTurned, Kind::kNativeStrongest,
+                                           Kind::kNativeEightLevels, Kind::kNativeOneLevel),
                          name_of);
+INSTANTIATE_TEST_SUITE_P(Hardware, ExtractorConformance, ::testing::Values(Kind::kHardware), name_of);
 #ifdef SEMTRACK_HAS_OPENCV
 INSTANTIATE_TEST_SUITE_P(Reference, ExtractorConformance, ::testing::Values(Kind::kOpenCv), name_of);
 #endif

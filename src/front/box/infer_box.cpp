@@ -14,7 +14,7 @@ namespace {
 constexpr double kMinDepthInferred_m = 0.5;
 constexpr double kMinExtent_px = 2.0;
 constexpr double kGoodFit_px = 6.0;      // without viewpoint: hypotheses that fit worse are not offered
-constexpr double kMaxMisfit = 0.5;       // of the box's larger side: beyond, such an object does not make such a box
+constexpr double kMaxMisfit = 0.8;       // of the box's larger side: beyond, such an object does not make such a box
 constexpr double kConsistent_px = 1e-6;  // the corners that were assumed do make the edges
 constexpr double kSamePose_rad = 1e-6;   // two corner pairs may meet in one pose: a corner straight behind another
 constexpr double kSamePoseShare = 1e-6;  // of the depth
@@ -111,6 +111,10 @@ std::int8_t outer_end(const EdgePlane& plane, const Vec3& up_c, int edge) {
     return static_cast<std::int8_t>(upper ? 1 : -1);
 }
 
+std::int8_t flipped(std::int8_t sign, int flip) {
+    return static_cast<std::int8_t>(flip != 0 ? -sign : sign);
+}
+
 /// Solves for one root with these corners. false: no pose in front of the camera.
 bool solve_corners(const BoxInferenceInput& in, unsigned valid, const EdgeVertices& vertices, int horizontal, int root,
                    BoxHypothesis& out) {
@@ -157,11 +161,12 @@ void solve_class(const BoxInferenceInput& in, unsigned valid, const Viewpoint& v
     for (int e = 0; e < kBoxEdges; ++e) {
         vertices[static_cast<std::size_t>(e)].z = outer_end(planes.edge[e], in.R_c_l.col(2), e);
     }
-    for (int k = 0; k < 32; ++k) {
-        vertices[kTop].x = static_cast<std::int8_t>((k & 2) != 0 ? 1 : -1);
-        vertices[kTop].y = static_cast<std::int8_t>((k & 4) != 0 ? 1 : -1);
-        vertices[kBottom].x = static_cast<std::int8_t>((k & 8) != 0 ? 1 : -1);
-        vertices[kBottom].y = static_cast<std::int8_t>((k & 16) != 0 ? 1 : -1);
+    const EdgeVertices table = vertices;
+    for (int k = 0; k < 32; ++k) {  // the table's own corners come first
+        vertices[kTop].x = flipped(table[kTop].x, k & 2);
+        vertices[kTop].y = flipped(table[kTop].y, k & 4);
+        vertices[kBottom].x = flipped(table[kBottom].x, k & 8);
+        vertices[kBottom].y = flipped(table[kBottom].y, k & 16);
         BoxHypothesis h;
         if (!solve_corners(in, valid, vertices, view.horizontal, k & 1, h)) {
             continue;

@@ -50,7 +50,7 @@ inline constexpr double kMaxInferredDepth_m = 200.0;
 /// first. Accuracy on exact input 1e-9 m, 1e-9 rad, but near a double root, where an error e of the input becomes
 /// sqrt(e). Four edges: closed form. Three: theta from the input, or the middle of the viewpoint's range of angles.
 /// Classes without heading: depth from top and bottom, sideways from left or right or both. kNotObservable: fewer
-/// edges, a box that no heading makes (too wide: kWidthSlack; off by half its
+/// edges, a box that no heading makes (too wide: kWidthSlack; off by 0.8 of its
 /// larger side), or no pose in front of the camera within kMaxInferredDepth_m; out
 /// is then empty. Bounded: at most 8 classes x 16 corner pairs x 2 roots, no allocation.
 Status infer_box(const BoxInferenceInput& input, BoxHypotheses& out);

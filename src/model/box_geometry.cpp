@@ -175,4 +175,20 @@ bool clip_box(const Box2d& box, int width, int height, Box2d& out) {
     return true;
 }
 
+Box2d carried_to_right(const Calibration& calibration, const Box2d& box, double near_m, double far_m) {
+    constexpr double kAtBorder_px = 1.5;
+    const double last = static_cast<double>(calibration.width - 1);
+    const double focal_base = calibration.left.fx * calibration.baseline_m;
+    const double rows[4] = {right_row(calibration, box.top, focal_base / near_m),
+                            right_row(calibration, box.top, focal_base / far_m),
+                            right_row(calibration, box.bottom, focal_base / near_m),
+                            right_row(calibration, box.bottom, focal_base / far_m)};
+    Box2d out;
+    out.left = box.left > kAtBorder_px ? right_column(calibration, box.left, near_m) : 0.0;
+    out.right = box.right < last - kAtBorder_px ? right_column(calibration, box.right, far_m) : last;
+    out.top = rows[0] < rows[1] ? rows[0] : rows[1];
+    out.bottom = rows[2] > rows[3] ? rows[2] : rows[3];
+    return out;
+}
+
 }  // namespace semtrack

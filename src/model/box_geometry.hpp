@@ -9,6 +9,7 @@
 #include "math/camera.hpp"
 #include "math/eigen.hpp"
 #include "math/pose.hpp"
+#include "semtrack/calibration.hpp"
 #include "semtrack/status.hpp"
 #include "semtrack/types.hpp"
 
@@ -52,6 +53,10 @@ using EdgeVertices = std::array<BoxVertex, kBoxEdges>;
 [[nodiscard]] double box_overlap(const Box2d& a, const Box2d& b);
 /// Cut to [0, width-1] x [0, height-1]. false: no overlap with the image; out untouched.
 [[nodiscard]] bool clip_box(const Box2d& box, int width, int height, Box2d& out);
+
+/// Where a box of the left image lies in the right one when its object is between two depths: each edge goes as far out
+/// as either depth takes it; an edge at the left image's border stays at the border, as the object goes on behind it.
+[[nodiscard]] Box2d carried_to_right(const Calibration& calibration, const Box2d& box, double near_m, double far_m);
 
 }  // namespace semtrack
 

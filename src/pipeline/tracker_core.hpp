@@ -27,6 +27,8 @@ struct TrackAtFrame {
     int index{0};  ///< of the frame in the track's window
 };
 
+inline constexpr int kYoungHits = 4;  ///< until then a track's motion is not known: its last 2D box predicts best
+
 class TrackerCore {
 public:
     Status init(const Config& config, const Calibration& calibration, FeatureExtractor* extractor,
@@ -68,6 +70,7 @@ private:
 
     // tracker_features.cpp: stages 3 to 6
     void build_masks();
+    void add_mask_items(const Track& track, int slot);
     void set_priors();
     void match(const Input& input);
     void reject();

@@ -15,7 +15,6 @@ namespace {
 
 constexpr std::int64_t kSameImage_us = 5000;  // stamps of one image may differ by rounding, not by half a frame
 constexpr double kBorder_px = 1.5;            // an edge this near to the border is the border's, not the object's
-constexpr int kYoungHits = 4;                 // until then the motion is not known: the last 2D box predicts best
 constexpr int kWrongViews = 3;                // detections in a row that contradict the heading
 constexpr double kStartDepthSigma = 0.15;     // of the depth: a size prior is off by so much
 

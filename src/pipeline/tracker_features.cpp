@@ -10,7 +10,8 @@ namespace semtrack {
 
 namespace {
 
-constexpr double kDepthMargin = 0.25;  // of the depth: a pose from the size prior is off by so much
+constexpr double kDepthMargin = 0.25;      // of the depth: a pose from the size prior is off by so much
+constexpr double kRoughDepthMargin = 0.4;  // of the depth: placed by fewer than four edges
 constexpr double kMinStereoDepth_m = 2.0;
 constexpr double kMaxStereoDepth_m = 400.0;
 constexpr double kPartlyHidden = 0.8;  // share of the contour that is seen: KITTI's occlusion levels
@@ -27,34 +28,55 @@ int occlusion_level(double visible_share) {
     return visible_share > kBarelySeen ? 2 : 3;
 }
 
+/// The paper's truncated object: fewer than four edges of its box are its own, so that the pose inferred from them is
+/// rough, and it was not seen often enough to have a better one.
+bool is_truncated_start(const Track& track) {
+    const BoxMeasurement& box = track.window.newest().box;
+    bool whole = true;
+    for (const double sigma_px : box.sigma_px) {
+        whole = whole && sigma_px > 0.0;
+    }
+    return track.hit_now && box.valid && !whole && track.hits <= kYoungHits;
+}
+
 }  // namespace
+
+void TrackerCore::add_mask_items(const Track& track, int slot) {
+    const ObjectFrame& frame = track.window.newest();
+    const DetectionView view{calibration_.left, frame.T_c_l};
+    const Pose T_l_o{rot_z(box_heading(frame.state, track.window.object_class, view)), frame.state.p};
+    MaskItem item;
+    item.owner = static_cast<std::uint8_t>(slot + 1);
+    item.T_c_o = frame.T_c_l * T_l_o;
+    item.size_m = track.window.size_m;
+    item.depth_m = item.T_c_o.t(2);
+    item.has_box2d = track.hit_now;
+    item.box2d = track.box;
+    item.has_box3d = true;
+    (void)mask_items_left_.try_push_back(item);
+    if (is_truncated_start(track)) {
+        // Only there: in the left image a rectangle gives the object more of the background than the rough contour
+        // with its guard (position error on drive 0039 4.8 instead of 4.7 %).
+        item.has_box3d = false;
+        const double margin = kRoughDepthMargin * item.depth_m;
+        const double near = item.depth_m - margin > kMinStereoDepth_m ? item.depth_m - margin : kMinStereoDepth_m;
+        const double far = item.depth_m + margin > near ? item.depth_m + margin : near;
+        item.box2d = carried_to_right(calibration_, track.box, near, far);
+    } else {
+        item.T_c_o.t += Vec3(-calibration_.baseline_m, 0.0, 0.0);
+        item.has_box2d = false;
+    }
+    (void)mask_items_right_.try_push_back(item);
+}
 
 void TrackerCore::build_masks() {
     begin(Stage::kMask);
     mask_items_left_.clear();
     mask_items_right_.clear();
-    const Vec3 t_r_c(-calibration_.baseline_m, 0.0, 0.0);
     for (int s = 0; s < kMaxObjects; ++s) {
-        const Track& track = tracks_[s];
-        if (!track.alive || !config_.mask_objects) {
-            continue;
+        if (tracks_[s].alive && config_.mask_objects) {
+            add_mask_items(tracks_[s], s);
         }
-        const ObjectFrame& frame = track.window.newest();
-        const DetectionView view{calibration_.left, frame.T_c_l};
-        const Pose T_l_o{rot_z(box_heading(frame.state, track.window.object_class, view)), frame.state.p};
-        const Pose T_c_o = frame.T_c_l * T_l_o;
-        MaskItem item;
-        item.owner = static_cast<std::uint8_t>(s + 1);
-        item.has_box3d = true;
-        item.T_c_o = T_c_o;
-        item.size_m = track.window.size_m;
-        item.depth_m = T_c_o.t(2);
-        item.has_box2d = track.hit_now;
-        item.box2d = track.box;
-        (void)mask_items_left_.try_push_back(item);
-        item.T_c_o.t += t_r_c;
-        item.has_box2d = false;
-        (void)mask_items_right_.try_push_back(item);
     }
     mask_builder_.build(calibration_.left, calibration_.width, calibration_.height, mask_items_left_, mask_left_,
                         mask_results_);

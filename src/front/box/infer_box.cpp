@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "front/box/edge_planes.hpp"
 #include "math/so3.hpp"
 #include "math/trig.hpp"
 #include "model/class_prior.hpp"
@@ -10,92 +11,30 @@ namespace semtrack {
 
 namespace {
 
-constexpr int kPasses = 4;  // exact vertices are chosen anew after each solution
 constexpr double kMinDepthInferred_m = 0.5;
 constexpr double kMinExtent_px = 2.0;
-constexpr double kGoodFit_px = 6.0;  // without viewpoint: hypotheses that fit worse are not offered
-
-struct Plane {
-    Vec3 a{Vec3::Zero()};  // normal in C
-    double cos{0};         // a . R_c_l R_z C d = cos * cos(theta) + sin * sin(theta) + one
-    double sin{0};
-    double one{0};
-    bool valid{false};
-};
-
-struct Planes {
-    Plane edge[kBoxEdges];
-    unsigned mask{0};
-    int count{0};
-};
-
-Planes planes_of(const BoxInferenceInput& in, const EdgeVertices& vertices) {
-    Planes out;
-    const double u[2] = {(in.box.left - in.camera.cx) / in.camera.fx, (in.box.right - in.camera.cx) / in.camera.fx};
-    const double v[2] = {(in.box.top - in.camera.cy) / in.camera.fy, (in.box.bottom - in.camera.cy) / in.camera.fy};
-    const bool valid[kBoxEdges] = {in.box.left > kBorder_px,
-                                   in.box.right<in.width - 1 - kBorder_px, in.box.top> kBorder_px,
-                                   in.box.bottom < in.height - 1 - kBorder_px};
-    for (int e = 0; e < kBoxEdges; ++e) {
-        Plane& plane = out.edge[e];
-        plane.valid = valid[e];
-        plane.a = e < 2 ? Vec3(1.0, 0.0, -u[e]) : Vec3(0.0, 1.0, -v[e - 2]);
-        const Vec3 q = in.R_c_l.transpose() * plane.a;
-        const Vec3 c = vertices[static_cast<std::size_t>(e)].scaled(in.size_m);
-        plane.cos = q(0) * c(0) + q(1) * c(1);
-        plane.sin = q(1) * c(0) - q(0) * c(1);
-        plane.one = q(2) * c(2);
-        if (valid[e]) {
-            out.mask |= 1U << static_cast<unsigned>(e);
-            ++out.count;
-        }
-    }
-    return out;
-}
-
-double offset(const Plane& plane, const SinCos& t) {
-    return plane.cos * t.cos + plane.sin * t.sin + plane.one;
-}
-
-/// Least squares of a_e . p = -offset_e over the valid edges, exact for three. false: not enough of them.
-bool position(const Planes& planes, double theta, Vec3& p_c) {
-    if (planes.count < 3) {
-        return false;
-    }
-    const SinCos t = sin_cos(theta);
-    Mat3 H = Mat3::Zero();
-    Vec3 g = Vec3::Zero();
-    for (const Plane& plane : planes.edge) {
-        if (!plane.valid) {
-            continue;
-        }
-        H += plane.a * plane.a.transpose();
-        g += plane.a * offset(plane, t);
-    }
-    const double determinant = H.determinant();
-    if (!(determinant > 1e-12)) {
-        return false;
-    }
-    p_c = -(H.inverse() * g);
-    // One Newton step removes the rounding of the normal equations.
-    Vec3 rest = g + H * p_c;
-    p_c -= H.inverse() * rest;
-    return std::isfinite(p_c(0)) && std::isfinite(p_c(1)) && std::isfinite(p_c(2));
-}
+constexpr double kGoodFit_px = 6.0;      // without viewpoint: hypotheses that fit worse are not offered
+constexpr double kMaxMisfit = 0.8;       // of the box's larger side: beyond, such an object does not make such a box
+constexpr double kConsistent_px = 1e-6;  // the corners that were assumed do make the edges
+constexpr double kSamePose_rad = 1e-6;   // two corner pairs may meet in one pose: a corner straight behind another
+constexpr double kSamePoseShare = 1e-6;  // of the depth
+constexpr double kClassStep_px = 20.0;   // a step of viewpoint class away from the one given
+constexpr double kAcross_px = 6.0;       // without viewpoint: a heading across the camera's axis; traffic goes along
 
 /// Largest distance of the used edges from the box that the pose projects to; negative: behind the camera.
-double reprojection_px(const BoxInferenceInput& in, const Planes& planes, const Vec3& p_c, double theta) {
-    Box2d box;
-    EdgeVertices unused;
-    const Pose T_c_o{in.R_c_l * rot_z(theta), p_c};
-    if (extreme_vertices(in.camera, T_c_o, in.size_m, unused) != Status::kOk ||
-        projected_box(in.camera, T_c_o, in.size_m, box) != Status::kOk) {
+double reprojection_px(const BoxInferenceInput& in, unsigned mask, const Pose& T_c_o) {
+    EdgeVertices exact;
+    if (extreme_vertices(in.camera, T_c_o, in.size_m, exact) != Status::kOk) {
         return -1.0;
     }
     double worst = 0.0;
     for (int e = 0; e < kBoxEdges; ++e) {
-        const double d = std::fabs(edge_value(box, e) - edge_value(in.box, e));
-        worst = planes.edge[e].valid && d > worst ? d : worst;
+        if (((mask >> static_cast<unsigned>(e)) & 1U) == 0U) {
+            continue;
+        }
+        const Vec2 q = project(in.camera, T_c_o * exact[static_cast<std::size_t>(e)].scaled(in.size_m));
+        const double d = std::fabs(q(e < kTop ? 0 : 1) - edge_value(in.box, e));
+        worst = d > worst ? d : worst;
     }
     return worst;
 }
@@ -104,51 +43,32 @@ bool in_range(const Vec3& p_c) {
     return p_c(2) > kMinDepthInferred_m && p_c.dot(p_c) < kMaxInferredDepth_m * kMaxInferredDepth_m;
 }
 
-/// Roots of a cos + b sin + c = 0; noise may push |c| a little beyond the amplitude: then the nearest angle.
-bool heading_roots(const Planes& planes, double roots[2]) {
-    const double h = planes.edge[kBottom].a(2) - planes.edge[kTop].a(2);  // -(v_b - v_t)
-    const double w = planes.edge[kRight].a(2) - planes.edge[kLeft].a(2);  // -(u_r - u_l)
-    const double n[kBoxEdges] = {h, -h, -w, w};
-    double a = 0.0;
-    double b = 0.0;
-    double c = 0.0;
-    for (int e = 0; e < kBoxEdges; ++e) {
-        a += n[e] * planes.edge[e].cos;
-        b += n[e] * planes.edge[e].sin;
-        c += n[e] * planes.edge[e].one;
-    }
-    const double amplitude = std::sqrt(a * a + b * b);
-    constexpr double kSlack = 1.6;  // a box wider than any heading makes it is taken as side-on
-    if (!(amplitude > 0.0) || !(std::fabs(c) < kSlack * amplitude)) {
-        return false;
-    }
-    double x = -c / amplitude;
-    x = x > 1.0 ? 1.0 : x < -1.0 ? -1.0 : x;
-    const double phase = atan2_rad(b, a);
-    const double spread = atan2_rad(std::sqrt((1.0 - x) * (1.0 + x)), x);
-    roots[0] = wrap_angle(phase + spread);
-    roots[1] = wrap_angle(phase - spread);
-    return true;
-}
-
 int class_distance(int a, int b) {
     const int d = a > b ? a - b : b - a;
     return d > 4 ? 8 - d : d;
 }
 
-/// Lower is better: the residual, and a step of viewpoint class counts like 20 px.
-double rank(const BoxHypothesis& h, const Viewpoint& wanted) {
-    constexpr double kClassStep_px = 20.0;
-    const int steps = h.viewpoint.horizontal < 0 ? 4 : class_distance(h.viewpoint.horizontal, wanted.horizontal);
-    return h.residual_px + kClassStep_px * steps;
+/// Lower is better: the residual, and what speaks against the class or, where none is given, against the heading.
+double rank_px(const BoxInferenceInput& in, const BoxHypothesis& h) {
+    const int wanted = in.viewpoint.horizontal;
+    if (wanted >= 0) {
+        return h.residual_px +
+               kClassStep_px * (h.viewpoint.horizontal < 0 ? 4 : class_distance(h.viewpoint.horizontal, wanted));
+    }
+    const Vec3 axis_l = in.R_c_l.transpose().col(2);
+    const double level = std::sqrt(axis_l(0) * axis_l(0) + axis_l(1) * axis_l(1));
+    const SinCos t = sin_cos(h.theta);
+    const double along = level > 0.0 ? std::fabs(axis_l(0) * t.cos + axis_l(1) * t.sin) / level : 0.0;
+    return h.residual_px + kAcross_px * (1.0 - along);
 }
 
-bool evaluate(const BoxInferenceInput& in, const Planes& planes, double theta, BoxHypothesis& out) {
+bool evaluate(const BoxInferenceInput& in, const EdgePlanes& planes, double theta, BoxHypothesis& out) {
     Vec3 p_c;
-    if (!position(planes, theta, p_c) || !in_range(p_c)) {
+    if (!position_at(planes, theta, p_c) || !in_range(p_c)) {
         return false;
     }
-    const double residual = reprojection_px(in, planes, p_c, theta);
+    const Pose T_c_o{in.R_c_l * rot_z(theta), p_c};
+    const double residual = reprojection_px(in, planes.mask, T_c_o);
     if (residual < 0.0) {
         return false;
     }
@@ -156,7 +76,8 @@ bool evaluate(const BoxInferenceInput& in, const Planes& planes, double theta, B
     out.theta = theta;
     out.edges = planes.mask;
     out.residual_px = residual;
-    out.viewpoint = visible_faces({in.R_c_l * rot_z(theta), p_c}, in.size_m);
+    out.viewpoint = visible_faces(T_c_o, in.size_m);
+    out.rank_px = rank_px(in, out);
     return true;
 }
 
@@ -169,101 +90,141 @@ double heading_of_class(const BoxInferenceInput& in, int horizontal) {
     return wrap_angle(to_object + turn);
 }
 
-/// Best pose for one class; false: none.
-bool solve_class(const BoxInferenceInput& in, const Viewpoint& view, BoxHypothesis& best) {
-    bool found = false;
-    EdgeVertices vertices = edge_vertices(view);
-    for (int pass = 0; pass < kPasses; ++pass) {
-        const Planes planes = planes_of(in, vertices);
-        double thetas[2] = {in.theta, in.theta};
-        int count = 1;
-        if (planes.count == kBoxEdges && !in.has_theta) {
-            if (!heading_roots(planes, thetas)) {
-                break;
-            }
-            count = 2;
-        } else if (!in.has_theta) {
-            thetas[0] = heading_of_class(in, view.horizontal);
-        }
-        bool improved = false;
-        BoxHypothesis local;
-        for (int i = 0; i < count; ++i) {
-            BoxHypothesis h;
-            if (!evaluate(in, planes, thetas[i], h)) {
-                continue;
-            }
-            if (!improved || rank(h, view) < rank(local, view)) {
-                local = h;
-            }
-            improved = true;
-        }
-        if (!improved) {
-            break;
-        }
-        if (!found || rank(local, view) < rank(best, view)) {
-            best = local;
-        }
-        found = true;
-        // Off the optical axis another corner may make the top or bottom edge: take the exact ones and solve again.
-        EdgeVertices exact;
-        if (extreme_vertices(in.camera, {in.R_c_l * rot_z(local.theta), local.p_c}, in.size_m, exact) != Status::kOk) {
-            break;
-        }
-        vertices = exact;
+/// Angles to try: the roots of the closed form, or the one that is known. Returns how many.
+int headings(const BoxInferenceInput& in, const EdgePlanes& planes, int horizontal, double thetas[2]) {
+    if (in.has_theta) {
+        thetas[0] = in.theta;
+        return 1;
     }
-    return found;
+    if (planes.count == kBoxEdges) {
+        return heading_roots(planes, thetas) ? 2 : 0;
+    }
+    thetas[0] = heading_of_class(in, horizontal);
+    return 1;
+}
+
+/// Which end of a vertical edge of the box reaches farthest out: all points but the vertex lie on the inner side of the
+/// edge's plane, so the slant of the box's vertical against that plane decides. A level camera sees no slant.
+std::int8_t outer_end(const EdgePlane& plane, const Vec3& up_c, int edge) {
+    const double slant = plane.a.dot(up_c);
+    const bool upper = edge == kLeft || edge == kTop ? slant <= 0.0 : slant >= 0.0;
+    return static_cast<std::int8_t>(upper ? 1 : -1);
+}
+
+std::int8_t flipped(std::int8_t sign, int flip) {
+    return static_cast<std::int8_t>(flip != 0 ? -sign : sign);
+}
+
+/// Solves for one root with these corners. false: no pose in front of the camera.
+bool solve_corners(const BoxInferenceInput& in, unsigned valid, const EdgeVertices& vertices, int horizontal, int root,
+                   BoxHypothesis& out) {
+    const EdgePlanes planes = edge_planes(in.camera, in.R_c_l, in.box, valid, vertices, in.size_m);
+    double thetas[2] = {0.0, 0.0};
+    return root < headings(in, planes, horizontal, thetas) && evaluate(in, planes, thetas[root], out);
+}
+
+bool same_pose(const BoxHypothesis& a, const BoxHypothesis& b) {
+    const double turn = wrap_angle(a.theta - b.theta);
+    const Vec3 d = a.p_c - b.p_c;
+    return std::fabs(turn) < kSamePose_rad && d.dot(d) < kSamePoseShare * kSamePoseShare * a.p_c.dot(a.p_c);
+}
+
+/// Lower first; equals in the order in which they came. The worst one gives way when the list is full.
+void insert_ranked(BoxHypotheses& out, const BoxHypothesis& h) {
+    for (BoxHypothesis& other : out) {
+        if (same_pose(other, h)) {
+            return;
+        }
+    }
+    if (out.size() == kMaxBoxHypotheses) {
+        if (!(h.rank_px < out[out.size() - 1].rank_px)) {
+            return;
+        }
+        out.truncate(out.size() - 1);
+    }
+    (void)out.try_push_back(h);
+    for (int k = out.size() - 1; k > 0 && out[k - 1].rank_px > h.rank_px; --k) {
+        out[k] = out[k - 1];
+        out[k - 1] = h;
+    }
+}
+
+/// The class fixes the corners of the left and right edge; those of the top and bottom edge are tried, four times
+/// four, because off the optical axis they are others than the table's (docs/viewpoints.md). Every pose whose own
+/// corners are the ones assumed is exact and goes into the list; without any, the one that fits best.
+void solve_class(const BoxInferenceInput& in, unsigned valid, const Viewpoint& view, bool given, BoxHypotheses& out) {
+    BoxHypothesis best;
+    bool found = false;
+    bool exact = false;
+    EdgeVertices vertices = edge_vertices(view);
+    const EdgePlanes planes = edge_planes(in.camera, in.R_c_l, in.box, valid, vertices, in.size_m);
+    for (int e = 0; e < kBoxEdges; ++e) {
+        vertices[static_cast<std::size_t>(e)].z = outer_end(planes.edge[e], in.R_c_l.col(2), e);
+    }
+    const EdgeVertices table = vertices;
+    for (int k = 0; k < 32; ++k) {  // the table's own corners come first
+        vertices[kTop].x = flipped(table[kTop].x, k & 2);
+        vertices[kTop].y = flipped(table[kTop].y, k & 4);
+        vertices[kBottom].x = flipped(table[kBottom].x, k & 8);
+        vertices[kBottom].y = flipped(table[kBottom].y, k & 16);
+        BoxHypothesis h;
+        if (!solve_corners(in, valid, vertices, view.horizontal, k & 1, h)) {
+            continue;
+        }
+        const bool right_class =
+            h.viewpoint.horizontal == view.horizontal && (view.vertical < 0 || h.viewpoint.vertical == view.vertical);
+        if (right_class && h.residual_px < kConsistent_px) {
+            insert_ranked(out, h);
+            exact = true;
+        } else if (!found || h.rank_px < best.rank_px) {
+            best = h;
+            found = true;
+        }
+    }
+    if (exact || !found) {
+        return;
+    }
+    const double width = in.box.right - in.box.left;
+    const double height = in.box.bottom - in.box.top;
+    const double misfit_px = given ? kMaxMisfit * (width > height ? width : height) : kGoodFit_px;
+    if (best.residual_px < misfit_px && (given || best.viewpoint.horizontal == view.horizontal)) {
+        insert_ranked(out, best);
+    }
 }
 
 Status infer_upright(const BoxInferenceInput& in, BoxHypotheses& out) {
-    // Position from the middle of the box and the height; a pedestrian has no theta.
-    const bool whole = in.box.top > kBorder_px && in.box.bottom < in.height - 1 - kBorder_px;
-    const double extent = in.box.bottom - in.box.top;
-    if (!whole || !(extent > kMinExtent_px)) {
+    // Depth from the height, sideways from the middle of the box, or from one edge and half the width where the other
+    // one is the border's. A pedestrian has no theta.
+    const unsigned valid = valid_edges(in.box, in.width, in.height);
+    constexpr unsigned kHeightEdges = (1U << kTop) | (1U << kBottom);
+    const bool left = (valid & (1U << kLeft)) != 0U;
+    const bool right = (valid & (1U << kRight)) != 0U;
+    if ((valid & kHeightEdges) != kHeightEdges || (!left && !right)) {
         return Status::kNotObservable;
     }
+    const double half_width = 0.25 * (in.size_m(0) + in.size_m(1));
+    const double u_px = left && right ? 0.5 * (in.box.left + in.box.right) : left ? in.box.left : in.box.right;
     const Vec3 up_c = in.R_c_l.col(2);
     const double half = 0.5 * in.size_m(2);
-    const Vec3 planes[3] = {{1.0, 0.0, -(0.5 * (in.box.left + in.box.right) - in.camera.cx) / in.camera.fx},
+    const Vec3 planes[3] = {{1.0, 0.0, -(u_px - in.camera.cx) / in.camera.fx},
                             {0.0, 1.0, -(in.box.top - in.camera.cy) / in.camera.fy},
                             {0.0, 1.0, -(in.box.bottom - in.camera.cy) / in.camera.fy}};
-    const double lift[3] = {0.0, half, -half};
+    const double sideways = left && right ? 0.0 : left ? -half_width : half_width;
+    const Vec3 vertex_c[3] = {Vec3(sideways, 0.0, 0.0), half * up_c, -half * up_c};
     Mat3 A;
     Vec3 b;
     for (int r = 0; r < 3; ++r) {
         A.row(r) = planes[r].transpose();
-        b(r) = -planes[r].dot(up_c) * lift[r];
+        b(r) = -planes[r].dot(vertex_c[r]);
     }
     BoxHypothesis h;
     h.p_c = A.inverse() * b;
-    h.edges = 0xFU;
+    h.edges = valid;
     if (!std::isfinite(h.p_c(0) + h.p_c(1) + h.p_c(2)) || !in_range(h.p_c)) {
         return Status::kNotObservable;
     }
     (void)out.try_push_back(h);
     return Status::kOk;
-}
-
-void insert_ranked(BoxHypotheses& out, const BoxHypothesis& h) {
-    for (BoxHypothesis& other : out) {
-        if (other.viewpoint.horizontal == h.viewpoint.horizontal) {
-            if (h.residual_px < other.residual_px) {
-                other = h;
-            }
-            return;
-        }
-    }
-    (void)out.try_push_back(h);
-}
-
-void sort_by_residual(BoxHypotheses& out) {
-    for (int i = 1; i < out.size(); ++i) {
-        const BoxHypothesis h = out[i];
-        int k = i;
-        for (; k > 0 && out[k - 1].residual_px > h.residual_px; --k) {
-            out[k] = out[k - 1];
-        }
-        out[k] = h;
-    }
 }
 
 bool usable(const BoxInferenceInput& in) {
@@ -282,27 +243,15 @@ Status infer_box(const BoxInferenceInput& input, BoxHypotheses& out) {
     if (!class_prior(input.object_class).has_heading) {
         return infer_upright(input, out);
     }
+    const unsigned valid = valid_edges(input.box, input.width, input.height);
     const bool given = input.viewpoint.horizontal >= 0 && input.viewpoint.horizontal < 8;
     for (int h = 0; h < 8; ++h) {
         if (given && h != input.viewpoint.horizontal) {
             continue;
         }
-        for (int v = 0; v < 2; ++v) {
-            if (given && input.viewpoint.vertical >= 0 && v != input.viewpoint.vertical) {
-                continue;
-            }
-            BoxHypothesis best;
-            const Viewpoint view{static_cast<std::int8_t>(h), static_cast<std::int8_t>(v)};
-            if (!solve_class(input, view, best)) {
-                continue;
-            }
-            if (!given && (best.viewpoint.horizontal != h || best.residual_px > kGoodFit_px)) {
-                continue;
-            }
-            insert_ranked(out, best);
-        }
+        const Viewpoint view{static_cast<std::int8_t>(h), input.viewpoint.vertical};
+        solve_class(input, valid, view, given, out);
     }
-    sort_by_residual(out);
     return out.empty() ? Status::kNotObservable : Status::kOk;
 }
 

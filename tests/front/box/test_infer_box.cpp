@@ -32,51 +32,6 @@ BoxInferenceInput input_for(const Vec3& p_c, double theta, const Vec3& size) {
     return in;
 }
 
-bool inside(const BoxInferenceInput& in) {
-    return in.box.left > 3 && in.box.top > 3 && in.box.right < 1238 && in.box.bottom < 371;
-}
-
-TEST(BoxInference, RecoversExactPosesToANanometreInEveryClassItSees) {
-    const Vec3 size(3.9, 1.6, 1.5);
-    int solved = 0;
-    int tried = 0;
-    int twins = 0;
-    double worst_m = 0.0;
-    bool seen[8] = {};
-    for (double z = 8.0; z < 60.0; z *= 1.3) {
-        for (double x = -0.7 * z; x < 0.7 * z; x += 0.1 * z) {
-            for (double theta = -3.1; theta < 3.14; theta += 0.11) {
-                const Vec3 p(x, 0.9, z);
-                const BoxInferenceInput in = input_for(p, theta, size);
-                if (!inside(in)) {
-                    continue;
-                }
-                ++tried;
-                BoxHypotheses out;
-                if (infer_box(in, out) != Status::kOk) {
-                    continue;
-                }
-                const double error = (out[0].p_c - p).norm();
-                const double turn = std::fabs(wrap_angle(out[0].theta - theta));
-                if (error < 1e-8 && turn < 1e-8) {
-                    ++solved;
-                    seen[in.viewpoint.horizontal] = true;
-                    worst_m = error > worst_m ? error : worst_m;
-                } else if (out[0].residual_px < 1e-6 && out[0].viewpoint.horizontal == in.viewpoint.horizontal) {
-                    ++twins;  // the second root shows the same faces and the same box: nothing can tell them apart
-                }
-            }
-        }
-    }
-    EXPECT_GT(tried, 3000);
-    EXPECT_GT(solved, 0.8 * tried);
-    EXPECT_GT(solved + twins, 0.97 * tried);
-    EXPECT_LT(worst_m, 1e-8);
-    for (int h = 0; h < 8; ++h) {
-        EXPECT_TRUE(seen[h]) << h;
-    }
-}
-
 TEST(BoxInference, ThreeEdgesAreEnoughWhenTheHeadingIsKnown) {
     const Vec3 size(3.9, 1.6, 1.5);
     const Vec3 p(7.0, 0.9, 9.0);
@@ -89,15 +44,6 @@ TEST(BoxInference, ThreeEdgesAreEnoughWhenTheHeadingIsKnown) {
     ASSERT_EQ(infer_box(in, out), Status::kOk);
     EXPECT_NEAR((out[0].p_c - p).norm(), 0.0, 1e-8);
     EXPECT_EQ(out[0].edges, 0xFU & ~(1U << kRight));
-}
-
-TEST(BoxInference, TwoEdgesAreNotObservable) {
-    BoxInferenceInput in = input_for(Vec3(3.0, 0.9, 20.0), 0.4, Vec3(3.9, 1.6, 1.5));
-    in.box.left = 0;
-    in.box.bottom = 374;
-    BoxHypotheses out;
-    EXPECT_EQ(infer_box(in, out), Status::kNotObservable);
-    EXPECT_TRUE(out.empty());
 }
 
 TEST(BoxInference, WithoutViewpointTheTrueClassIsAmongTheHypotheses) {
@@ -117,7 +63,7 @@ TEST(BoxInference, WithoutViewpointTheTrueClassIsAmongTheHypotheses) {
             found += h.viewpoint.horizontal == truth ? 1 : 0;
         }
         for (int i = 1; i < out.size(); ++i) {
-            EXPECT_LE(out[i - 1].residual_px, out[i].residual_px);
+            EXPECT_LE(out[i - 1].rank_px, out[i].rank_px);
         }
     }
     EXPECT_GE(found, tried - 1);

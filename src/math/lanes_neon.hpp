@@ -1,5 +1,6 @@
 // lanes_plain.hpp on ARM with NEON (all AArch64; ARMv7 when the compiler is told so). Integers only: NEON's
 // flush-to-zero of ARMv7 never matters.
+// MISRA deviation D-04: intrinsics.
 #ifndef SEMTRACK_MATH_LANES_NEON_HPP
 #define SEMTRACK_MATH_LANES_NEON_HPP
 

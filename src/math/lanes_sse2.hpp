@@ -1,4 +1,5 @@
 // lanes_plain.hpp on x86-64: every function is one to four instructions of SSE2, which each such processor has.
+// MISRA deviation D-04: intrinsics.
 #ifndef SEMTRACK_MATH_LANES_SSE2_HPP
 #define SEMTRACK_MATH_LANES_SSE2_HPP
 

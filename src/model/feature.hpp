@@ -40,6 +40,7 @@ struct FeatureMeasurement {
     float previous_u_right{0};
     float sigma_px{1};        ///< of u and v
     float sigma_right_px{1};  ///< of u_right
+    float correlation{0};     ///< of its patch with what it is followed by, 0..1; 0: new, or not known
 };
 
 using FrameFeatures = StaticVector<FeatureMeasurement, kMaxFeatures>;

@@ -12,8 +12,6 @@ namespace {
 constexpr int kFastThreshold = 10;
 constexpr int kBorder_px = 14;
 constexpr int kWideRadius = 10;  // half-size px: motion or depth are not known yet
-constexpr int kRadius = 4;
-constexpr int kStartFrames = 2;  // until the background's motion is known
 constexpr int kCandidates = 2;   // corners tried per missing feature of the background
 constexpr std::uint32_t kRowsEvery = 4;  // a feature in four measures the row offset
 constexpr int kMaxCoarseDistance = kCoarse * kCoarse * 26;
@@ -122,34 +120,49 @@ bool PatchMatcher::search(const Appearance& a, float u, float v, int radius, Fou
     return true;
 }
 
-bool PatchMatcher::follow_one(const MatcherInput& in, int owner, int s, double fallback_depth_m) {
-    FeatureSlot& slot = table_.at(owner, s);
-    Appearance& a = looks_[static_cast<std::size_t>(first_feature_slot(owner) + s)];
-    const OwnerPrior& prior = (*in.priors)[static_cast<std::size_t>(owner)];
-    const float measured = depth_of(in, slot);
-    const double z = measured > 0.0F ? static_cast<double>(measured) : fallback_depth_m;
-    const Pose T = finite(prior.T_cur_prev) ? prior.T_cur_prev : Pose{};
-    const Vec3 x_now =
-        T * (bearing(in.calibration->left, static_cast<double>(slot.u), static_cast<double>(slot.v)) * z);
+bool PatchMatcher::predict(const MatcherInput& in, int owner, const FeatureSlot& slot, double fallback_depth_m,
+                           Prediction& out) const {
+    const Pose& T = (*in.priors)[static_cast<std::size_t>(owner)].T_cur_prev;
+    const float depth = depth_of(in, slot);
+    out.measured = depth > 0.0F;
+    const Vec3 x_before = bearing(in.calibration->left, static_cast<double>(slot.u), static_cast<double>(slot.v)) *
+                          (out.measured ? static_cast<double>(depth) : fallback_depth_m);
+    const Vec3 x_now = finite(T) ? T * x_before : x_before;
     if (!(x_now(2) > kMinDepth_m)) {
         return false;
     }
     const Vec2 at = project(in.calibration->left, x_now);
-    if (!(at(0) > 0.0) || !(at(1) > 0.0) || !(at(0) < in.left.width) || !(at(1) < in.left.height)) {
+    out.u = static_cast<float>(at(0)) + jump_u_;
+    out.v = static_cast<float>(at(1)) + jump_v_;
+    out.depth_m = static_cast<float>(x_now(2));
+    return out.u > 0.0F && out.v > 0.0F && out.u < static_cast<float>(in.left.width) &&
+           out.v < static_cast<float>(in.left.height);
+}
+
+bool PatchMatcher::locate(const MatcherInput& in, const Appearance& a, const Prediction& at, int radius, Found& found) {
+    if (!search(a, at.u, at.v, radius, found)) {
         return false;
     }
-    const bool sure = owner == kBackground ? frames_ >= kStartFrames && measured > 0.0F : slot.age > 0;
+    const float growth = a.reference_depth_m > 0.0F && at.measured ? a.reference_depth_m / at.depth_m : 1.0F;
+    found.growth = growth < kMinGrowth ? kMinGrowth : growth > kMaxGrowth ? kMaxGrowth : growth;
+    found.road = a.road && road_.may_show(found.v);
+    const float inverse = 1.0F / found.growth;
+    const PatchWarp warp =
+        found.road ? road_.warp(found.u, found.v, found.growth) : PatchWarp{inverse, 0.0F, inverse};
+    return template_.build(a.reference, warp) &&
+           template_.align(in.left, kMaxShift_px, found.u, found.v, found.ncc) && found.ncc >= kMinCorrelation;
+}
+
+bool PatchMatcher::follow_one(const MatcherInput& in, int owner, int s, double fallback_depth_m) {
+    FeatureSlot& slot = table_.at(owner, s);
+    Appearance& a = looks_[static_cast<std::size_t>(first_feature_slot(owner) + s)];
+    Prediction at;
+    if (!predict(in, owner, slot, fallback_depth_m, at)) {
+        return false;
+    }
+    const bool sure = owner == kBackground ? frames_ >= kStartFrames && at.measured : slot.age > 0;
     Found found;
-    if (!search(a, static_cast<float>(at(0)), static_cast<float>(at(1)), sure ? kRadius : kWideRadius, found)) {
-        return false;
-    }
-    const auto z_now = static_cast<float>(x_now(2));
-    float growth = a.reference_depth_m > 0.0F && measured > 0.0F ? a.reference_depth_m / z_now : 1.0F;
-    growth = growth < kMinGrowth ? kMinGrowth : growth > kMaxGrowth ? kMaxGrowth : growth;
-    const bool road = a.road && road_.may_show(found.v);
-    const PatchWarp warp = road ? road_.warp(found.u, found.v, growth) : PatchWarp{1.0F / growth, 0.0F, 1.0F / growth};
-    if (!template_.build(a.reference, warp) || !template_.align(in.left, kMaxShift_px, found.u, found.v, found.ncc) ||
-        found.ncc < kMinCorrelation || !allowed(in, owner, found.u, found.v)) {
+    if (!locate(in, a, at, sure ? kRadius : kWideRadius, found) || !allowed(in, owner, found.u, found.v)) {
         return false;
     }
     FeatureMeasurement& m = now_[static_cast<std::size_t>(first_feature_slot(owner) + s)];
@@ -160,20 +173,22 @@ bool PatchMatcher::follow_one(const MatcherInput& in, int owner, int s, double f
     m.previous_u_right = slot.u_right;
     m.previous_stereo = slot.stereo;
     m.sigma_px = kSigma_px;
+    m.correlation = found.ncc;
     slot.u = found.u;
     slot.v = found.v;
     ++slot.age;
     ++a.age;
     remember_coarse(slot, a);
-    const double d = in.calibration->left.fx * in.calibration->baseline_m / x_now(2);
+    const double d = in.calibration->left.fx * in.calibration->baseline_m / static_cast<double>(at.depth_m);
     RowMatch match;
-    slot.stereo = measured > 0.0F ? match_again(in, slot, road, static_cast<float>(d), slot.id % kRowsEvery == 0U, match)
-                                  : match_new(in, owner, slot, match);  // the depth was only a guess
+    slot.stereo = at.measured
+                      ? match_again(in, slot, found.road, static_cast<float>(d), slot.id % kRowsEvery == 0U, match)
+                      : match_new(in, owner, slot, match);  // the depth was only a guess
     set_stereo(match, slot, m);
-    const bool keep_scale = growth < kRenewGrowth && growth > 1.0F / kRenewGrowth;
+    const bool keep_scale = found.growth < kRenewGrowth && found.growth > 1.0F / kRenewGrowth;
     if (a.age >= kRenewAge || found.ncc < kRenewCorrelation || !keep_scale) {
-        a.road = slot.stereo ? match.road : road;
-        remember(in, slot, a, slot.stereo ? depth_of(in, slot) : measured > 0.0F ? z_now : 0.0F);
+        a.road = slot.stereo ? match.road : found.road;
+        remember(in, slot, a, slot.stereo ? depth_of(in, slot) : at.measured ? at.depth_m : 0.0F);
     }
     return true;
 }
@@ -335,6 +350,7 @@ Status PatchMatcher::process(const MatcherInput& in, FrameFeatures& out) {
     if (!in.right.empty()) {
         right_half_.build(in.right);
     }
+    find_jump(in);
     selector_.begin(in.left.width, in.left.height);
     for (int owner = 0; owner < kMaxOwners; ++owner) {
         if ((*in.priors)[static_cast<std::size_t>(owner)].active) {

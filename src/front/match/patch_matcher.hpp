@@ -41,10 +41,19 @@ private:
         std::uint16_t age{0};        // frames since the reference was taken
         bool road{false};            // lies on the road, else upright
     };
+    /// Where the owner's motion puts a feature.
+    struct Prediction {
+        float u{0};
+        float v{0};
+        float depth_m{0};
+        bool measured{false};  // the depth; else a guess
+    };
     struct Found {
         float u{0};
         float v{0};
         float ncc{0};
+        float growth{1};  // size now over size in the reference
+        bool road{false};
     };
     /// A place along the row of the right image.
     struct RowMatch {
@@ -63,6 +72,10 @@ private:
     // patch_matcher.cpp
     void follow(const MatcherInput& in, int owner);
     [[nodiscard]] bool follow_one(const MatcherInput& in, int owner, int slot, double fallback_depth_m);
+    [[nodiscard]] bool predict(const MatcherInput& in, int owner, const FeatureSlot& slot, double fallback_depth_m,
+                               Prediction& out) const;
+    [[nodiscard]] bool locate(const MatcherInput& in, const Appearance& a, const Prediction& at, int radius,
+                              Found& found);
     [[nodiscard]] bool search(const Appearance& a, float u, float v, int radius, Found& found) const;
     void add_new(const MatcherInput& in);
     [[nodiscard]] bool start(const MatcherInput& in, const SelectedCorner& corner, int slot);
@@ -74,6 +87,8 @@ private:
     [[nodiscard]] bool allowed(const MatcherInput& in, int owner, float u, float v) const;
     [[nodiscard]] float depth_of(const MatcherInput& in, const FeatureSlot& slot) const;
     void emit(int owner, int slot, FrameFeatures& out);
+    // patch_jump.cpp
+    void find_jump(const MatcherInput& in);
     // patch_stereo.cpp
     [[nodiscard]] bool match_again(const MatcherInput& in, const FeatureSlot& slot, bool road, float disparity_px,
                                    bool measure_rows, RowMatch& out);
@@ -101,7 +116,11 @@ private:
     CoarseRows upright_rows_{};
     CoarseRows road_rows_{};
     PatchTemplate template_{};
-    int frames_{0};  // since the start, up to kStartFrames
+    static constexpr int kRadius = 4;       // of the search in time, half-size px
+    static constexpr int kStartFrames = 2;  // until the background's motion is known
+    int frames_{0};                         // since the start, up to kStartFrames
+    float jump_u_{0};                       // of the whole image, beyond what the motion predicts
+    float jump_v_{0};
 };
 
 }  // namespace semtrack

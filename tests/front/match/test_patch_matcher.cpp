@@ -93,6 +93,41 @@ TEST_F(PatchMatcherTest, FollowsAcrossAPredictionThatIsAFewPixelsWrong) {
     EXPECT_LT(e.motion_px, 0.3);
 }
 
+TEST_F(PatchMatcherTest, WhenTheWholeImageJumpsByMoreThanTheSearchReachesItsFeaturesAreKept) {
+    const PlaneScene scene;
+    for (const double jump : {-40.0, 0.0, 30.0}) {
+        matcher_->reset();
+        for (int k = 0; k < 3; ++k) {
+            ASSERT_EQ(run(PlaneFrame(scene, 0, 0, 0), scene, still_priors(false)), Status::kOk);
+        }
+        const int before = features_->size();
+        ASSERT_EQ(run(PlaneFrame(scene, 5.0, jump, 0), scene, still_priors(false)), Status::kOk);
+        int tracked = 0;
+        for (const FeatureMeasurement& m : *features_) {
+            tracked += m.tracked ? 1 : 0;
+            if (m.tracked) {
+                EXPECT_NEAR(static_cast<double>(m.v - m.previous_v), jump, 0.5);
+                EXPECT_NEAR(static_cast<double>(m.u - m.previous_u), 5.0, 0.5);
+            }
+        }
+        EXPECT_GT(tracked, before * 6 / 10) << jump;  // others left the image
+    }
+}
+
+TEST_F(PatchMatcherTest, WhenNothingIsLikeBeforeNothingIsFollowed) {
+    PlaneScene scene;
+    for (int k = 0; k < 3; ++k) {
+        ASSERT_EQ(run(PlaneFrame(scene, 0, 0, 0), scene, still_priors(false)), Status::kOk);
+    }
+    ASSERT_EQ(run(PlaneFrame(scene, 5000.0, 3000.0, 0), scene, still_priors(false)), Status::kOk);  // elsewhere
+    int tracked = 0;
+    for (const FeatureMeasurement& m : *features_) {
+        tracked += m.tracked ? 1 : 0;
+    }
+    EXPECT_LT(tracked, features_->size() / 4) << "smooth patches are alike by chance; RANSAC is there for them";
+    EXPECT_GT(features_->size(), 200) << "new ones are taken";
+}
+
 TEST_F(PatchMatcherTest, IdentityLastsWhileAFeatureIsSeenAndIdsAreNeverUsedTwice) {
     const PlaneScene scene;
     OwnerPriors priors = still_priors(false);

@@ -99,6 +99,20 @@ void score_block(const Rows& rows, int x, int threshold, Byte* scores) {
     std::memcpy(scores, block, sizeof(block));
 }
 
+/// A block of three rows' scores: 0 where the middle one is not the largest of its 3 x 3.
+void suppress(const Byte* above, const Byte* here, const Byte* below, Byte* kept) {
+    Byte block[kBlock];
+    for (int i = 0; i < kBlock; ++i) {
+        const Byte s = here[i];
+        const Byte before = more(more(above[i - 1], above[i]), more(above[i + 1], here[i - 1]));
+        const Byte after = more(more(below[i - 1], below[i]), more(below[i + 1], here[i + 1]));
+        const auto over_before = static_cast<Byte>(more(s, before) - before);
+        const auto under_after = static_cast<Byte>(more(s, after) - s);
+        block[i] = under_after == 0 ? over_before : Byte{0};
+    }
+    std::memcpy(kept, block, sizeof(block));
+}
+
 }  // namespace
 
 // Blocks are listed first and scored then: whether one may hold a corner is hard to guess, and a branch on it would cost
@@ -121,31 +135,24 @@ void OrbCorners::score_row(const ImageView& image, int y, int threshold, ScoredR
     std::memset(score + end, 0, kMargin_px);
 }
 
-// 3 x 3 suppression; of equal neighbours the earlier one in raster order stays. Again lists instead of branches.
+// 3 x 3 suppression; of equal neighbours the earlier one in raster order stays. Again lists in place of branches: of the
+// blocks that keep something, then of the pixels that are kept.
 void OrbCorners::keep_largest(const ScoredRow& above, const ScoredRow& here, const ScoredRow& below, int y,
                               CornerGrid& out) {
-    std::uint16_t columns[kMaxImageWidth];
-    int count = 0;
+    Byte kept[kMaxImageWidth];  // not 0: stays; only the listed blocks are written and read
+    Blocks keeping;
     for (int k = 0; k < here.blocks.count; ++k) {
         const int x = here.blocks.x[k];
-        const Byte* up = above.score.data() + x;
-        const Byte* at = here.score.data() + x;
-        const Byte* down = below.score.data() + x;
-        Byte kept[kBlock];
-        for (int i = 0; i < kBlock; ++i) {
-            const Byte s = at[i];
-            const Byte before = more(more(up[i - 1], up[i]), more(up[i + 1], at[i - 1]));
-            const Byte after = more(more(down[i - 1], down[i]), more(down[i + 1], at[i + 1]));
-            const auto over_before = static_cast<Byte>(more(s, before) - before);
-            const auto under_after = static_cast<Byte>(more(s, after) - s);
-            kept[i] = under_after == 0 ? over_before : Byte{0};
-        }
-        if (!any(kept)) {
-            continue;
-        }
-        for (int i = 0; i < kBlock; ++i) {
-            columns[count] = static_cast<std::uint16_t>(x + i);
-            count += kept[i] != 0 ? 1 : 0;
+        suppress(above.score.data() + x, here.score.data() + x, below.score.data() + x, kept + x);
+        keeping.add_if(any(kept + x), x);
+    }
+    std::uint16_t columns[kMaxImageWidth];
+    int count = 0;
+    for (int k = 0; k < keeping.count; ++k) {
+        const int begin = keeping.x[k];
+        for (int x = begin; x < begin + kBlock; ++x) {
+            columns[count] = static_cast<std::uint16_t>(x);
+            count += kept[x] != 0 ? 1 : 0;
         }
     }
     for (int k = 0; k < count; ++k) {

@@ -11,8 +11,8 @@ constexpr std::size_t sized(int i) {
     return static_cast<std::size_t>(i);
 }
 
-/// 255 inside the disc of kBriefRadius_px, 0 outside, by row (0: the centre's) and column (from x - 16): rows of a fixed
-/// length, so that 16 columns are one step.
+/// 255 inside the disc of kBriefRadius_px, 0 outside, by row (0: the centre's) and column (from x - 16): rows of a
+/// fixed length, so that 16 columns are one step.
 using DiscRow = std::array<std::uint8_t, sized(kColumns)>;
 constexpr std::array<DiscRow, sized(kBriefRadius_px) + 1> make_disc() {
     std::array<DiscRow, sized(kBriefRadius_px) + 1> disc{};
@@ -68,8 +68,8 @@ constexpr Word binomial(Word outer, Word near_outer, Word near_middle, Word midd
 
 using Row = Word[kColumns];
 
-/// Along the row, to four times the value (10 bits). In several loops: of one in which neighbours share all their pixels clang
-/// makes a chain instead of vectors.
+/// Along the row, to four times the value (10 bits). In several loops: of one in which neighbours share all their
+/// pixels clang makes a chain instead of vectors.
 void filter_row(const std::uint8_t* p, Word* out) {
     Word outer[kColumns];
     Word near_outer[kColumns];
@@ -92,8 +92,9 @@ void filter_row(const std::uint8_t* p, Word* out) {
 /// Across seven rows, to the pixel.
 void filter_column(const Row* rows, std::uint8_t* out) {
     for (int i = 0; i < kColumns; ++i) {
-        const Word sum = binomial(static_cast<Word>(rows[0][i] + rows[6][i]), static_cast<Word>(rows[1][i] + rows[5][i]),
-                                  static_cast<Word>(rows[2][i] + rows[4][i]), rows[3][i]);
+        const Word sum =
+            binomial(static_cast<Word>(rows[0][i] + rows[6][i]), static_cast<Word>(rows[1][i] + rows[5][i]),
+                     static_cast<Word>(rows[2][i] + rows[4][i]), rows[3][i]);
         out[i] = static_cast<std::uint8_t>(static_cast<Word>(sum + 128) >> 8U);
     }
 }

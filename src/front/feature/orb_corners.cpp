@@ -115,8 +115,9 @@ void suppress(const Byte* above, const Byte* here, const Byte* below, Byte* kept
 
 }  // namespace
 
-// Blocks are listed first and scored then: whether one may hold a corner is hard to guess, and a branch on it would cost
-// more than the test. The last block may reach beyond the range, into the margin and the row's end; that part is cut.
+// Blocks are listed first and scored then: whether one may hold a corner is hard to guess, and a branch on it would
+// cost more than the test. The last block may reach beyond the range, into the margin and the row's end; that part is
+// cut.
 void OrbCorners::score_row(const ImageView& image, int y, int threshold, ScoredRow& out) {
     const int end = image.width - kMargin_px;
     const Rows rows(image, y);
@@ -135,8 +136,8 @@ void OrbCorners::score_row(const ImageView& image, int y, int threshold, ScoredR
     std::memset(score + end, 0, kMargin_px);
 }
 
-// 3 x 3 suppression; of equal neighbours the earlier one in raster order stays. Again lists in place of branches: of the
-// blocks that keep something, then of the pixels that are kept.
+// 3 x 3 suppression; of equal neighbours the earlier one in raster order stays. Again lists in place of branches: of
+// the blocks that keep something, then of the pixels that are kept.
 void OrbCorners::keep_largest(const ScoredRow& above, const ScoredRow& here, const ScoredRow& below, int y,
                               CornerGrid& out) {
     Byte kept[kMaxImageWidth];  // not 0: stays; only the listed blocks are written and read

@@ -1,5 +1,5 @@
-// FAST-9 corners of whole pyramids: the corners, scores and order of FastDetector, computed for 16 neighbouring pixels at
-// a time. Bytes, minima and maxima only, so that compilers make one vector instruction of each step on any target.
+// FAST-9 corners of whole pyramids: the corners, scores and order of FastDetector, computed for 16 neighbouring pixels
+// at a time. Bytes, minima and maxima only, so that compilers make one vector instruction of each step on any target.
 #ifndef SEMTRACK_FRONT_FEATURE_ORB_CORNERS_HPP
 #define SEMTRACK_FRONT_FEATURE_ORB_CORNERS_HPP
 

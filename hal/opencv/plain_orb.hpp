@@ -1,5 +1,5 @@
-// cv::ORB just as it comes: what the library's own extractor is measured against, in quality and in time. Uses the heap;
-// not for the ECU. The extractor for the tracker (owners, cells) is opencv_extractor.hpp.
+// cv::ORB just as it comes: what the library's own extractor is measured against, in quality and in time. Uses the
+// heap; not for the ECU. The extractor for the tracker (owners, cells) is opencv_extractor.hpp.
 #ifndef SEMTRACK_HAL_OPENCV_PLAIN_ORB_HPP
 #define SEMTRACK_HAL_OPENCV_PLAIN_ORB_HPP
 

@@ -26,7 +26,8 @@ Json match_means(const std::filesystem::path& ego_csv) {
     const std::optional<double> features = mean_of("features");
     const std::optional<double> inliers = mean_of("inliers");
     if (features && inliers && *features > 0.0) {
-        matches = Json{{"features_mean", *features}, {"inliers_mean", *inliers}, {"inlier_share", *inliers / *features}};
+        matches =
+            Json{{"features_mean", *features}, {"inliers_mean", *inliers}, {"inlier_share", *inliers / *features}};
     }
     return matches;
 }

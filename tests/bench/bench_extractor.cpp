@@ -1,5 +1,5 @@
-// semtrack-bench: quality, and milliseconds an image on one core, of the library's own ORB and of cv::ORB, and the ratio
-// of their times. Real frames where SEMTRACK_KITTI names the data, else rendered ones.
+// semtrack-bench: quality, and milliseconds an image on one core, of the library's own ORB and of cv::ORB, and the
+// ratio of their times. Real frames where SEMTRACK_KITTI names the data, else rendered ones.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
@@ -96,7 +96,8 @@ double least_ms(Orb& orb, const ImageView& view, double before) {
     return ms < before ? ms : before;
 }
 
-/// Processor time, image by image in turns, the least of several runs of each: what else the machine does hits both alike.
+/// Processor time, image by image in turns, the least of several runs of each: what else the machine does hits both
+/// alike.
 void print_ratio(int levels, Choice choice, int threshold) {
     constexpr int kRuns = 9;
     OwnOrb own_orb(levels, choice, false, threshold);

@@ -72,8 +72,8 @@ void count_matches(const FramePair& pair, const Keypoints& left, const Keypoints
         const Point l{static_cast<double>(left[i].u), static_cast<double>(left[i].v)};
         const Point r{static_cast<double>(right[j].u), static_cast<double>(right[j].v)};
         const double d = disparity(pair.calibration, l.u, r.u);
-        const bool possible = d >= 0.0 && d <= kMostDisparity_px &&
-                              std::fabs(r.v - right_row(pair.calibration, l.v, d)) <= kSameRow_px;
+        const bool possible =
+            d >= 0.0 && d <= kMostDisparity_px && std::fabs(r.v - right_row(pair.calibration, l.v, d)) <= kSameRow_px;
         share.hits += possible && pair.truth->same_in_right(l.u, l.v, r, kSameDisparity_px) ? 1 : 0;
     }
 }
@@ -111,8 +111,8 @@ Quality measure(const std::vector<FramePair>& pairs, const Extract& extract) {
         chance += by_chance(*next, pair.left.width, pair.left.height).value();
     }
     const auto n = static_cast<double>(pairs.size());
-    return {features / n,       in_time.value(), in_right.value(), matches.value(), matches.all / n,
-            matches.hits / n, chance / n};
+    return {features / n,    in_time.value(),  in_right.value(), matches.value(),
+            matches.all / n, matches.hits / n, chance / n};
 }
 
 std::string quality_head() {

@@ -7,9 +7,9 @@
 //                       whose disparity is possible (0 to 200 px) and within 1.5 px of the truth.
 //
 // Points whose place is not known do not count for repeatability; a match whose place is not known is no inlier.
-// matches, inliers: per pair of images. chance: the share of the next image that lies within 2 px of some keypoint, which
-// a keypoint at a random place would reach. Only extractors that choose alike can be compared: strong corners come back
-// more often than spread ones, whoever finds them.
+// matches, inliers: per pair of images. chance: the share of the next image that lies within 2 px of some keypoint,
+// which a keypoint at a random place would reach. Only extractors that choose alike can be compared: strong corners
+// come back more often than spread ones, whoever finds them.
 #ifndef SEMTRACK_TESTS_BENCH_EXTRACTOR_QUALITY_HPP
 #define SEMTRACK_TESTS_BENCH_EXTRACTOR_QUALITY_HPP
 

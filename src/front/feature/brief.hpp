@@ -19,7 +19,7 @@ namespace semtrack {
 /// level, and the patch stays in the nearest cache. Its fixed stride makes each sample's place a constant.
 class BriefPatch {
 public:
-    static constexpr int kColumns = 32;                 ///< x - 16 .. x + 15: whole vectors of bytes
+    static constexpr int kColumns = 32;  ///< x - 16 .. x + 15: whole vectors of bytes
     static constexpr int kRows = 2 * kBriefReach_px + 1;
     static constexpr int kCentreColumn = kColumns / 2;
 

@@ -8,7 +8,7 @@
 
 namespace semtrack {
 
-inline constexpr int kBriefRadius_px = 15;  ///< of the disc that holds every sample in every direction
+inline constexpr int kBriefRadius_px = 15;                  ///< of the disc that holds every sample in every direction
 inline constexpr int kBriefReach_px = kBriefRadius_px - 1;  ///< of the samples, along each axis, in every direction
 inline constexpr int kBriefBits = 256;
 

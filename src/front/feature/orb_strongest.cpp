@@ -21,8 +21,7 @@ void StrongestCorners::select(const CornerGrid& grid, const OwnerMaskView& mask,
     for (int cell = 0; cell < grid.cells(); ++cell) {
         for (int i = 0; i < grid.count(cell); ++i) {
             int& place = start[static_cast<std::size_t>(256 - grid.corner(cell, i).score)];
-            sorted_[static_cast<std::size_t>(place++)] =
-                static_cast<std::uint16_t>(cell * CornerGrid::kPerCell + i);
+            sorted_[static_cast<std::size_t>(place++)] = static_cast<std::uint16_t>(cell * CornerGrid::kPerCell + i);
         }
     }
     FeatureBudget left = budget;

@@ -11,91 +11,83 @@ namespace {
 
 using lanes::U8x16;
 
-constexpr int kLanes = 16;
-constexpr int kCircle = 16;
+constexpr int kBlock = 16;
 constexpr int kRadius = 3;
-constexpr int kDx[kCircle] = {0, 1, 2, 3, 3, 3, 2, 1, 0, -1, -2, -3, -3, -3, -2, -1};
-constexpr int kDy[kCircle] = {-3, -3, -2, -1, 0, 1, 2, 3, 3, 3, 2, 1, 0, -1, -2, -3};
 
 bool any(const U8x16& a) {
     return lanes::sign_bits(lanes::equal(a, lanes::splat(0))) != 0xFFFFU;
 }
-/// Where a > b, something other than 0.
-U8x16 above(const U8x16& a, const U8x16& b) {
-    return lanes::sub_saturated(a, b);
-}
 
-/// Sixteen centres and the circles around them.
-struct Circle {
-    const std::uint8_t* at[kCircle];
-    std::ptrdiff_t x{0};
-    U8x16 centre{};
-
-    [[nodiscard]] U8x16 pixel(int k) const { return lanes::load(at[k] + x); }
-    /// How much at least one of two opposite pixels is brighter (or darker) than the centre: any arc of nine holds one
-    /// of them, so no score is larger.
-    void bound(int k, U8x16& brighter, U8x16& darker) const {
-        const U8x16 a = pixel(k);
-        const U8x16 b = pixel(k + kCircle / 2);
-        brighter = lanes::min(brighter, above(lanes::max(a, b), centre));
-        darker = lanes::min(darker, above(centre, lanes::min(a, b)));
+/// Sixteen centres, and the circles around them: pixel k clockwise from the top.
+struct Circles {
+    const std::uint8_t* row[2 * kRadius + 1];  // y - 3 .. y + 3
+    Circles(const ImageView& image, int y) {
+        for (int dy = -kRadius; dy <= kRadius; ++dy) {
+            row[dy + kRadius] = image.row(y + dy);
+        }
+    }
+    template <int dx, int dy>
+    [[nodiscard]] U8x16 at(int x) const {
+        return lanes::load(row[dy + kRadius] + x + dx);
     }
 };
 
-/// The best over all arcs of nine of the smallest difference: runs of 2, 4 and 8, then the ninth.
-U8x16 best_arc(const U8x16* d) {
-    U8x16 two[kCircle];
-    U8x16 four[kCircle];
-    for (int k = 0; k < kCircle; ++k) {
-        two[k] = lanes::min(d[k], d[(k + 1) % kCircle]);
+/// Differences to the centre, at least 0: brighter or darker, whichever is more.
+U8x16 contrast(const U8x16& bright, const U8x16& dark, const U8x16& centre) {
+    return lanes::max(lanes::sub_saturated(bright, centre), lanes::sub_saturated(centre, dark));
+}
+
+/// An arc of nine holds a pixel of each opposite pair: the darkest of the pairs' brighter pixels bounds what the arc is
+/// brighter by, and the other way round. Four pairs of eight leave few blocks without a corner.
+bool may_hold_corner(const Circles& c, int x, const U8x16& threshold) {
+    const U8x16 n = c.at<0, -3>(x), s = c.at<0, 3>(x), e = c.at<3, 0>(x), w = c.at<-3, 0>(x);
+    const U8x16 ne = c.at<2, -2>(x), sw = c.at<-2, 2>(x), se = c.at<2, 2>(x), nw = c.at<-2, -2>(x);
+    const U8x16 bright = lanes::min(lanes::min(lanes::max(n, s), lanes::max(e, w)),
+                                    lanes::min(lanes::max(ne, sw), lanes::max(se, nw)));
+    const U8x16 dark = lanes::max(lanes::max(lanes::min(n, s), lanes::min(e, w)),
+                                  lanes::max(lanes::min(ne, sw), lanes::min(se, nw)));
+    return any(lanes::sub_saturated(contrast(bright, dark, c.at<0, 0>(x)), threshold));
+}
+
+/// With kBright the largest, over all arcs of nine pixels of the circle, of the arc's smallest pixel; else the smallest
+/// of the largest. Runs of two, then of four; two arcs that share eight pixels are looked at together.
+template <bool kBright>
+U8x16 best_arc(const U8x16* p) {
+    const auto in = [](const U8x16& a, const U8x16& b) { return kBright ? lanes::min(a, b) : lanes::max(a, b); };
+    const auto out = [](const U8x16& a, const U8x16& b) { return kBright ? lanes::max(a, b) : lanes::min(a, b); };
+    U8x16 two[8];  // from pixel 2 k + 1 on
+    for (int k = 0; k < 8; ++k) {
+        two[k] = in(p[2 * k + 1], p[(2 * k + 2) % 16]);
     }
-    for (int k = 0; k < kCircle; ++k) {
-        four[k] = lanes::min(two[k], two[(k + 2) % kCircle]);
+    U8x16 four[8];
+    for (int k = 0; k < 8; ++k) {
+        four[k] = in(two[k], two[(k + 1) % 8]);
     }
-    U8x16 best = lanes::splat(0);
-    for (int k = 0; k < kCircle; ++k) {
-        const U8x16 eight = lanes::min(four[k], four[(k + 4) % kCircle]);
-        best = lanes::max(best, lanes::min(eight, d[(k + 8) % kCircle]));
+    U8x16 best = lanes::splat(kBright ? 0 : 255);
+    for (int k = 0; k < 8; ++k) {  // the eight pixels from 2 k + 1 on, and the one before or the one after
+        const U8x16 eight = in(four[k], four[(k + 2) % 8]);
+        best = out(best, in(eight, out(p[2 * k], p[(2 * k + 9) % 16])));
     }
     return best;
 }
 
 /// Scores of sixteen pixels: the largest t such that some arc is brighter than the centre by more than t, or darker;
 /// 0 below the threshold.
-U8x16 scores_of(const Circle& circle, const U8x16& threshold) {
-    U8x16 brighter = lanes::splat(255);
-    U8x16 darker = lanes::splat(255);
-    for (int k = 0; k < kCircle / 2; k += 4) {
-        circle.bound(k, brighter, darker);
-    }
-    if (!any(above(lanes::max(brighter, darker), threshold))) {
-        return lanes::splat(0);
-    }
-    for (int k = 2; k < kCircle / 2; k += 4) {
-        circle.bound(k, brighter, darker);
-    }
-    if (!any(above(lanes::max(brighter, darker), threshold))) {
-        return lanes::splat(0);
-    }
-    U8x16 up[kCircle];
-    U8x16 down[kCircle];
-    for (int k = 0; k < kCircle; ++k) {
-        const U8x16 p = circle.pixel(k);
-        up[k] = above(p, circle.centre);
-        down[k] = above(circle.centre, p);
-    }
-    const U8x16 score = lanes::sub_saturated(lanes::max(best_arc(up), best_arc(down)), lanes::splat(1));
+U8x16 scores_of(const Circles& c, int x, const U8x16& threshold) {
+    const U8x16 p[16] = {c.at<0, -3>(x), c.at<1, -3>(x),  c.at<2, -2>(x),  c.at<3, -1>(x),
+                         c.at<3, 0>(x),  c.at<3, 1>(x),   c.at<2, 2>(x),   c.at<1, 3>(x),
+                         c.at<0, 3>(x),  c.at<-1, 3>(x),  c.at<-2, 2>(x),  c.at<-3, 1>(x),
+                         c.at<-3, 0>(x), c.at<-3, -1>(x), c.at<-2, -2>(x), c.at<-1, -3>(x)};
+    const U8x16 over = contrast(best_arc<true>(p), best_arc<false>(p), c.at<0, 0>(x));
+    const U8x16 score = lanes::sub_saturated(over, lanes::splat(1));
     return lanes::bit_and(score, lanes::equal(lanes::max(score, threshold), score));
 }
 
 /// Of sixteen scores, those that no neighbour beats; of equal neighbours the earlier one in raster order stays.
-std::uint32_t maxima(const std::uint8_t* above_row, const std::uint8_t* here, const std::uint8_t* below) {
+std::uint32_t maxima(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below) {
     const U8x16 s = lanes::load(here);
-    if (!any(s)) {
-        return 0;
-    }
-    const U8x16 earlier = lanes::max(lanes::max(lanes::load(above_row - 1), lanes::load(above_row)),
-                                     lanes::max(lanes::load(above_row + 1), lanes::load(here - 1)));
+    const U8x16 earlier = lanes::max(lanes::max(lanes::load(above - 1), lanes::load(above)),
+                                     lanes::max(lanes::load(above + 1), lanes::load(here - 1)));
     const U8x16 later = lanes::max(lanes::max(lanes::load(below - 1), lanes::load(below)),
                                    lanes::max(lanes::load(below + 1), lanes::load(here + 1)));
     const U8x16 beaten = lanes::equal(lanes::sub_saturated(s, earlier), lanes::splat(0));  // s <= earlier: also s = 0
@@ -105,38 +97,78 @@ std::uint32_t maxima(const std::uint8_t* above_row, const std::uint8_t* here, co
 
 }  // namespace
 
-void CornerGrid::add(const Corner& corner) {
-    const int cell = (corner.y / kCornerCell_px) * kColumns + corner.x / kCornerCell_px;
-    std::uint8_t& n = count_[static_cast<std::size_t>(cell)];
-    Corner* list = corners_.data() + static_cast<std::ptrdiff_t>(cell) * kPerCell;
-    int k = n;
-    if (n == kPerCell) {
-        if (corner.score <= list[kPerCell - 1].score) {
-            return;
-        }
-        k = kPerCell - 1;
-    } else {
-        ++n;
-    }
-    for (; k > 0 && list[k - 1].score < corner.score; --k) {
-        list[k] = list[k - 1];
-    }
-    list[k] = corner;
+void CornerGrid::clear() {
+    keys_.fill(0);
+    count_.fill(0);
 }
 
-void FastDetector::score_row(const ImageView& image, int y, int threshold, int margin_px, std::uint8_t* scores) {
-    std::memset(scores, 0, static_cast<std::size_t>(image.width));
-    Circle circle;
-    for (int k = 0; k < kCircle; ++k) {
-        circle.at[k] = image.row(y + kDy[k]) + kDx[k];
+// The list stays sorted by passing the key down it: no branch, whatever the image holds.
+void CornerGrid::add(const Corner& corner) {
+    const int cell = (corner.y / kCornerCell_px) * kColumns + corner.x / kCornerCell_px;
+    const int place = (corner.y % kCornerCell_px) * kCornerCell_px + corner.x % kCornerCell_px;
+    auto key = static_cast<std::uint16_t>(corner.score * 256 + 255 - place);
+    std::uint16_t* list = keys_.data() + static_cast<std::ptrdiff_t>(cell) * kPerCell;
+    for (int k = 0; k < kPerCell; ++k) {
+        const std::uint16_t better = list[k] > key ? list[k] : key;
+        key = list[k] > key ? key : list[k];
+        list[k] = better;
     }
-    const std::uint8_t* centre = image.row(y);
+    std::uint8_t& n = count_[static_cast<std::size_t>(cell)];
+    n = static_cast<std::uint8_t>(n + (n < kPerCell ? 1 : 0));
+}
+
+Corner CornerGrid::corner(int cell, int i) const {
+    const int key = keys_[static_cast<std::size_t>(cell * kPerCell + i)];
+    const int place = 255 - key % 256;
+    return {static_cast<std::int16_t>(cell % kColumns * kCornerCell_px + place % kCornerCell_px),
+            static_cast<std::int16_t>(cell / kColumns * kCornerCell_px + place / kCornerCell_px),
+            static_cast<std::uint8_t>(key / 256)};
+}
+
+void FastDetector::ScoredRow::clear(int width) {
+    std::memset(score.data(), 0, static_cast<std::size_t>(width));
+    blocks.count = 0;
+}
+
+void FastDetector::score_row(const ImageView& image, int y, int threshold, int margin_px, ScoredRow& out) {
+    const Circles circles(image, y);
     const U8x16 t = lanes::splat(static_cast<std::uint8_t>(threshold));
-    const int last = image.width - margin_px - kLanes;
-    for (int x = margin_px; x < last + kLanes; x += kLanes) {
-        circle.x = x < last ? x : last;  // the last sixteen overlap those before
-        circle.centre = lanes::load(centre + circle.x);
-        lanes::store(scores + circle.x, scores_of(circle, t));
+    const int last = image.width - margin_px - kBlock;
+    possible_.count = 0;
+    for (int x = margin_px; x < last + kBlock; x += kBlock) {
+        const int from = x < last ? x : last;  // the last block overlaps the one before
+        possible_.add_if(may_hold_corner(circles, from, t), from);
+    }
+    out.clear(image.width);
+    for (int k = 0; k < possible_.count; ++k) {
+        const int x = possible_.x[static_cast<std::size_t>(k)];
+        const U8x16 scores = scores_of(circles, x, t);
+        lanes::store(out.score.data() + x, scores);
+        out.blocks.add_if(any(scores), x);
+    }
+}
+
+// 3x3 suppression, again with lists in place of branches. first, last: of the blocks' columns.
+void FastDetector::keep_largest(const ScoredRow& above, const ScoredRow& here, const ScoredRow& below, int y, int first,
+                                int last, CornerGrid& out) {
+    const std::uint32_t beyond_overlap = 0xFFFFU << static_cast<unsigned>((kBlock - (last - first) % kBlock) % kBlock);
+    std::array<std::uint16_t, static_cast<std::size_t>(kMaxImageWidth) + kBlock> columns;
+    int count = 0;
+    for (int k = 0; k < here.blocks.count; ++k) {
+        const int x = here.blocks.x[static_cast<std::size_t>(k)];
+        std::uint32_t bits = maxima(above.score.data() + x, here.score.data() + x, below.score.data() + x);
+        bits &= x == last ? beyond_overlap : 0xFFFFU;
+        if (bits == 0U) {
+            continue;
+        }
+        for (int i = 0; i < kBlock; ++i, bits >>= 1U) {
+            columns[static_cast<std::size_t>(count)] = static_cast<std::uint16_t>(x + i);
+            count += static_cast<int>(bits & 1U);
+        }
+    }
+    for (int k = 0; k < count; ++k) {
+        const std::uint16_t x = columns[static_cast<std::size_t>(k)];
+        out.add({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y), here.score[x]});
     }
 }
 
@@ -144,32 +176,23 @@ Status FastDetector::detect(const ImageView& image, int threshold, int margin_px
     out.clear();
     const int margin = margin_px < kRadius + 1 ? kRadius + 1 : margin_px;
     if (image.empty() || image.width > kMaxImageWidth || image.height > kMaxImageHeight ||
-        image.width < 2 * margin + kLanes || image.height <= 2 * margin || threshold < 1 || threshold > 254) {
+        image.width < 2 * margin + kBlock || image.height <= 2 * margin || threshold < 1 || threshold > 254) {
         return Status::kInvalidArgument;
     }
-    std::uint8_t* above_row = rows_.data();
-    std::uint8_t* here = above_row + kMaxImageWidth;
-    std::uint8_t* below = here + kMaxImageWidth;
-    std::memset(above_row, 0, static_cast<std::size_t>(image.width));
-    score_row(image, margin, threshold, margin, here);
-    const int end = image.width - margin;
+    ScoredRow* above = &rows_[0];
+    ScoredRow* here = &rows_[1];
+    ScoredRow* below = &rows_[2];
+    above->clear(image.width);
+    score_row(image, margin, threshold, margin, *here);
     for (int y = margin; y < image.height - margin; ++y) {
         if (y + 1 < image.height - margin) {
-            score_row(image, y + 1, threshold, margin, below);
+            score_row(image, y + 1, threshold, margin, *below);
         } else {
-            std::memset(below, 0, static_cast<std::size_t>(image.width));
+            below->clear(image.width);
         }
-        for (int x = margin; x < end; x += kLanes) {
-            const int from = x < end - kLanes ? x : end - kLanes;
-            std::uint32_t bits = maxima(above_row + from, here + from, below + from) >> static_cast<unsigned>(x - from);
-            for (int i = x; bits != 0U; ++i, bits >>= 1U) {
-                if ((bits & 1U) != 0U) {
-                    out.add({static_cast<std::int16_t>(i), static_cast<std::int16_t>(y), here[i]});
-                }
-            }
-        }
-        std::uint8_t* old = above_row;
-        above_row = here;
+        keep_largest(*above, *here, *below, y, margin, image.width - margin - kBlock, out);
+        ScoredRow* old = above;
+        above = here;
         here = below;
         below = old;
     }

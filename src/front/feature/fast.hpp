@@ -27,17 +27,16 @@ public:
     static constexpr int kRows = (kMaxImageHeight + kCornerCell_px - 1) / kCornerCell_px;
     static constexpr int kMaxCorners = kColumns * kRows * kPerCell;
 
-    void clear() { count_.fill(0); }
+    void clear();
     void add(const Corner& corner);
     [[nodiscard]] int cells() const { return kColumns * kRows; }
     [[nodiscard]] int count(int cell) const { return count_[static_cast<std::size_t>(cell)]; }
-    [[nodiscard]] const Corner& corner(int cell, int i) const {
-        return corners_[static_cast<std::size_t>(cell * kPerCell + i)];
-    }
+    [[nodiscard]] Corner corner(int cell, int i) const;
 
 private:
+    // Score, then 255 minus the place in the cell's raster, best first; 0: none.
+    std::array<std::uint16_t, static_cast<std::size_t>(kMaxCorners)> keys_{};
     std::array<std::uint8_t, static_cast<std::size_t>(kColumns) * kRows> count_{};
-    std::array<Corner, static_cast<std::size_t>(kMaxCorners)> corners_{};
 };
 
 class FastDetector {
@@ -49,8 +48,27 @@ public:
     Status detect(const ImageView& image, int threshold, int margin_px, CornerGrid& out);
 
 private:
-    void score_row(const ImageView& image, int y, int threshold, int margin_px, std::uint8_t* scores);
-    std::array<std::uint8_t, static_cast<std::size_t>(kMaxImageWidth) * 3> rows_{};  // scores of three rows
+    /// Where blocks of 16 pixels begin. Adding has no branch: whether a block holds a corner is hard to guess, and a wrong
+    /// guess costs more than the test.
+    struct Blocks {
+        std::array<std::uint16_t, static_cast<std::size_t>(kMaxImageWidth) / 16 + 1> x{};
+        int count{0};
+        void add_if(bool wanted, int column) {
+            x[static_cast<std::size_t>(count)] = static_cast<std::uint16_t>(column);
+            count += wanted ? 1 : 0;
+        }
+    };
+    struct ScoredRow {
+        std::array<std::uint8_t, static_cast<std::size_t>(kMaxImageWidth)> score{};  // 0: no corner
+        Blocks blocks{};                                                             // that hold scores
+        void clear(int width);
+    };
+    void score_row(const ImageView& image, int y, int threshold, int margin_px, ScoredRow& out);
+    void keep_largest(const ScoredRow& above, const ScoredRow& here, const ScoredRow& below, int y, int first,
+                      int last, CornerGrid& out);
+
+    std::array<ScoredRow, 3> rows_{};
+    Blocks possible_{};
 };
 
 }  // namespace semtrack

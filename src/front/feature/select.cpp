@@ -52,33 +52,27 @@ void CornerSelector::occupy(int owner, float u, float v) {
 // Counting sort by owner; within an owner the order of the cells.
 void CornerSelector::bucket(const CornerGrid& grid, const OwnerMaskView& mask) {
     first_.fill(0);
-    for (int pass = 0; pass < 2; ++pass) {
-        std::array<int, static_cast<std::size_t>(kMaxOwners)> at{};
-        for (int o = 0; o < kMaxOwners; ++o) {
-            at[static_cast<std::size_t>(o)] = first_[static_cast<std::size_t>(o)];
-        }
-        for (int cell = 0; cell < grid.cells(); ++cell) {
-            for (int i = 0; i < grid.count(cell); ++i) {
-                const Corner& c = grid.corner(cell, i);
-                const std::uint8_t owner = mask.at(c.x, c.y);
-                if (owner >= kMaxOwners) {
-                    continue;
-                }
-                if (pass == 1) {
-                    corners_[static_cast<std::size_t>(at[owner])] = c;
-                }
-                ++at[owner];
+    int n = 0;  // corners that somebody owns
+    for (int cell = 0; cell < grid.cells(); ++cell) {
+        const int in_cell = grid.count(cell);
+        for (int i = 0; i < in_cell; ++i) {
+            const Corner c = grid.corner(cell, i);
+            const std::uint8_t owner = mask.at(c.x, c.y);
+            if (owner < kMaxOwners) {
+                sorted_[static_cast<std::size_t>(n)] = c;
+                owner_[static_cast<std::size_t>(n)] = owner;
+                ++first_[static_cast<std::size_t>(owner) + 1U];
+                ++n;
             }
         }
-        if (pass == 1) {
-            break;
-        }
-        int sum = 0;
-        for (int o = 0; o < kMaxOwners; ++o) {
-            first_[static_cast<std::size_t>(o)] = sum;
-            sum += at[static_cast<std::size_t>(o)];
-        }
-        first_[static_cast<std::size_t>(kMaxOwners)] = sum;
+    }
+    for (std::size_t o = 1; o < first_.size(); ++o) {
+        first_[o] += first_[o - 1];
+    }
+    auto at = first_;
+    for (int i = 0; i < n; ++i) {
+        corners_[static_cast<std::size_t>(at[owner_[static_cast<std::size_t>(i)]]++)] =
+            sorted_[static_cast<std::size_t>(i)];
     }
 }
 

@@ -49,6 +49,7 @@ private:
     std::array<std::uint16_t, static_cast<std::size_t>(kCells)> background_filled_{};
     std::array<Corner, static_cast<std::size_t>(CornerGrid::kMaxCorners)> corners_{};  // by owner
     std::array<Corner, static_cast<std::size_t>(CornerGrid::kMaxCorners)> sorted_{};
+    std::array<std::uint8_t, static_cast<std::size_t>(CornerGrid::kMaxCorners)> owner_{};
     std::array<int, static_cast<std::size_t>(kMaxOwners) + 1> first_{};
     int width_{0};
     int height_{0};

@@ -40,7 +40,9 @@ double box_similarity(const TrackBox& track, const Detection& detection) {
         return 0.0;
     }
     // Distance of the centres in units of the mean half extents: 0 equal, 1 half overlapping, 2 touching.
-    const double du = (a.left + a.right - b.left - b.right) / (wa + wb);
+    // A person's width changes with every step: half the height is the least that counts as its width.
+    const double across = wa + wb > 0.5 * (ha + hb) ? wa + wb : 0.5 * (ha + hb);
+    const double du = (a.left + a.right - b.left - b.right) / across;
     const double dv = (a.top + a.bottom - b.top - b.bottom) / (ha + hb);
     const double distance = std::sqrt(du * du + dv * dv);
     const double centre = distance < 1.0 ? 1.0 - distance : 0.0;
@@ -134,7 +136,7 @@ void Associator::run(const TrackBoxes& tracks, const DetectionList& list, Assign
             cost(r, j) = s < kLostSimilarity ? kForbidden : 1.0 - s;
         }
         for (int j = 1; j <= rows; ++j) {
-            cost(r, detections + j) = j == r ? 1.0 : kForbidden;
+            cost(r, detections + j) = j == r ? 1.0 - kLostSimilarity : kForbidden;
         }
     }
     row_potential_[0] = 0.0;

@@ -23,20 +23,22 @@ struct Assignment {
     std::array<bool, kMaxDetections> detection_used{};
 };
 
-inline constexpr double kLostSimilarity = 0.3;
+inline constexpr double kLostSimilarity = 0.4;
 
 /// Detectors confuse classes: vehicles with vehicles, people with people.
 [[nodiscard]] bool may_be_one(ObjectClass a, ObjectClass b);
 
-/// 0..1: class compatibility x (centre distance relative to the boxes' size, and ratio of widths and heights).
+/// 0..1: class compatibility x (centre distance relative to the boxes' size, a width
+/// counting as half the height at least; and ratio of widths and heights).
 [[nodiscard]] double box_similarity(const TrackBox& track, const Detection& detection);
 
 /// The box turned with the camera: a far point at (u, v) moves by the rotation alone. R_cur_prev maps camera
 /// coordinates of the earlier frame to the present one.
 [[nodiscard]] Box2d rotated_box(const Box2d& box, const Mat3& R_cur_prev, const PinholeCamera& camera);
 
-/// The assignment with the largest sum of similarities among pairs above kLostSimilarity (Hungarian method, at most
-/// kMaxObjects x kMaxDetections; ties go to the lower indices). O(tracks^2 detections), no allocation.
+/// The assignment with the largest sum of what pairs have above kLostSimilarity, so that a pair at the threshold is
+/// worth no more than none and a chain of poor pairs does not push out good ones (Hungarian method, at most kMaxObjects
+/// x kMaxDetections; ties go to the lower indices). O(tracks^2 detections), no allocation.
 class Associator {
 public:
     void run(const TrackBoxes& tracks, const DetectionList& list, Assignment& out);

@@ -11,6 +11,7 @@ namespace semtrack {
 
 namespace {
 
+constexpr int kPasses = 4;
 constexpr double kMinDepthInferred_m = 0.5;
 constexpr double kMinExtent_px = 2.0;
 constexpr double kGoodFit_px = 6.0;      // without viewpoint: hypotheses that fit worse are not offered
@@ -51,15 +52,16 @@ int class_distance(int a, int b) {
 /// Lower is better: the residual, and what speaks against the class or, where none is given, against the heading.
 double rank_px(const BoxInferenceInput& in, const BoxHypothesis& h) {
     const int wanted = in.viewpoint.horizontal;
+    const double residual_px = h.residual_px < kConsistent_px ? 0.0 : h.residual_px;  // no order by rounding
     if (wanted >= 0) {
-        return h.residual_px +
+        return residual_px +
                kClassStep_px * (h.viewpoint.horizontal < 0 ? 4 : class_distance(h.viewpoint.horizontal, wanted));
     }
     const Vec3 axis_l = in.R_c_l.transpose().col(2);
     const double level = std::sqrt(axis_l(0) * axis_l(0) + axis_l(1) * axis_l(1));
     const SinCos t = sin_cos(h.theta);
     const double along = level > 0.0 ? std::fabs(axis_l(0) * t.cos + axis_l(1) * t.sin) / level : 0.0;
-    return h.residual_px + kAcross_px * (1.0 - along);
+    return residual_px + kAcross_px * (1.0 - along);
 }
 
 bool evaluate(const BoxInferenceInput& in, const EdgePlanes& planes, double theta, BoxHypothesis& out) {
@@ -149,13 +151,54 @@ void insert_ranked(BoxHypotheses& out, const BoxHypothesis& h) {
     }
 }
 
+double misfit_of_class(const BoxHypothesis& h, int horizontal) {
+    return h.residual_px +
+           kClassStep_px * (h.viewpoint.horizontal < 0 ? 4 : class_distance(h.viewpoint.horizontal, horizontal));
+}
+
+/// From the table's corners to those that the solution itself has, and again: the pose that fits best on the way.
+bool follow_table(const BoxInferenceInput& in, unsigned valid, const Viewpoint& view, BoxHypothesis& best) {
+    bool found = false;
+    EdgeVertices vertices = edge_vertices(view);
+    for (int pass = 0; pass < kPasses; ++pass) {
+        BoxHypothesis local;
+        bool any = false;
+        for (int root = 0; root < 2; ++root) {
+            BoxHypothesis h;
+            if (solve_corners(in, valid, vertices, view.horizontal, root, h) &&
+                (!any || misfit_of_class(h, view.horizontal) < misfit_of_class(local, view.horizontal))) {
+                local = h;
+                any = true;
+            }
+        }
+        if (any && (!found || misfit_of_class(local, view.horizontal) < misfit_of_class(best, view.horizontal))) {
+            best = local;
+            found = true;
+        }
+        if (!any || extreme_vertices(in.camera, {in.R_c_l * rot_z(local.theta), local.p_c}, in.size_m, vertices) !=
+                        Status::kOk) {
+            break;
+        }
+    }
+    return found;
+}
+
+bool is_exact(const BoxHypothesis& h, const Viewpoint& view) {
+    return h.viewpoint.horizontal == view.horizontal && h.residual_px < kConsistent_px &&
+           (view.vertical < 0 || h.viewpoint.vertical == view.vertical);
+}
+
 /// The class fixes the corners of the left and right edge; those of the top and bottom edge are tried, four times
 /// four, because off the optical axis they are others than the table's (docs/viewpoints.md). Every pose whose own
-/// corners are the ones assumed is exact and goes into the list; without any, the one that fits best.
+/// corners are the ones assumed is exact and goes into the list. Without any (the size is a prior, edges are noisy) the
+/// pose that the table leads to is better than the best of odd corners.
 void solve_class(const BoxInferenceInput& in, unsigned valid, const Viewpoint& view, bool given, BoxHypotheses& out) {
     BoxHypothesis best;
-    bool found = false;
-    bool exact = false;
+    const bool found = follow_table(in, valid, view, best);
+    bool exact = found && is_exact(best, view);
+    if (exact) {
+        insert_ranked(out, best);
+    }
     EdgeVertices vertices = edge_vertices(view);
     const EdgePlanes planes = edge_planes(in.camera, in.R_c_l, in.box, valid, vertices, in.size_m);
     for (int e = 0; e < kBoxEdges; ++e) {
@@ -168,17 +211,9 @@ void solve_class(const BoxInferenceInput& in, unsigned valid, const Viewpoint& v
         vertices[kBottom].x = flipped(table[kBottom].x, k & 8);
         vertices[kBottom].y = flipped(table[kBottom].y, k & 16);
         BoxHypothesis h;
-        if (!solve_corners(in, valid, vertices, view.horizontal, k & 1, h)) {
-            continue;
-        }
-        const bool right_class =
-            h.viewpoint.horizontal == view.horizontal && (view.vertical < 0 || h.viewpoint.vertical == view.vertical);
-        if (right_class && h.residual_px < kConsistent_px) {
+        if (solve_corners(in, valid, vertices, view.horizontal, k & 1, h) && is_exact(h, view)) {
             insert_ranked(out, h);
             exact = true;
-        } else if (!found || h.rank_px < best.rank_px) {
-            best = h;
-            found = true;
         }
     }
     if (exact || !found) {

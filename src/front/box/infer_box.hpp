@@ -52,7 +52,7 @@ inline constexpr double kMaxInferredDepth_m = 200.0;
 /// Classes without heading: depth from top and bottom, sideways from left or right or both. kNotObservable: fewer
 /// edges, a box that no heading makes (too wide: kWidthSlack; off by 0.8 of its
 /// larger side), or no pose in front of the camera within kMaxInferredDepth_m; out
-/// is then empty. Bounded: at most 8 classes x 16 corner pairs x 2 roots, no allocation.
+/// is then empty. Bounded: at most 8 classes x (16 corner pairs + 4 passes) x 2 roots, no allocation.
 Status infer_box(const BoxInferenceInput& input, BoxHypotheses& out);
 
 /// Class that a continuous observation angle alpha = rotation_y - atan2(x, z) stands for, for an object at p_c.

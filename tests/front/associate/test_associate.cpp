@@ -52,8 +52,8 @@ TEST_F(AssociateTest, TheBestSumWinsOverTheGreedyChoice) {
     // Greedy would give detection 0 to track 1 (nearer) and leave track 0 without any: 1 is too far for it.
     track(100, 100, 200, 200);
     track(130, 100, 230, 200);
-    detect(detection(138, 100, 238, 200));
-    detect(detection(205, 100, 305, 200));
+    detect(detection(120, 100, 220, 200));
+    detect(detection(201, 100, 301, 200));
     run();
     EXPECT_EQ(out_.detection_of_track[0], 0);
     EXPECT_EQ(out_.detection_of_track[1], 1);

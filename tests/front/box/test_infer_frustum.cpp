@@ -107,7 +107,7 @@ TEST_P(ExactInput, GivesThePoseToANanometreInEveryClassOverTheFrustum) {
             EXPECT_EQ(h.viewpoint.vertical, b.view.vertical);
             EXPECT_EQ(h.edges, 0xFU);
         }
-        EXPECT_LE(out.size(), 2);
+        EXPECT_LE(out.size(), GetParam() ? 3 : 2);  // a rolled camera: rarely also a corner of the roof at the side
         twins += out.size() == 2 ? 1 : 0;
         ++checked[2 * b.view.horizontal + b.view.vertical];
         ++total;
@@ -276,11 +276,11 @@ TEST(BoxInference, WithoutViewpointAPixelOfNoiseLeavesTheTrueClassInTheList) {
     const Ranks any = ranks_without_viewpoint(1.0, 0.35, false);
     show("1 px of noise, any heading", any);
     EXPECT_GT(any.tried, 5000);
-    EXPECT_GT(any.found, 0.7 * any.tried);
+    EXPECT_GT(any.found, 0.93 * any.tried);
     EXPECT_LE(any.longest, kMaxBoxHypotheses);
     const Ranks along = ranks_without_viewpoint(1.0, 0.35, true);
     show("1 px of noise, along the road", along);
-    EXPECT_GT(along.found, 0.7 * along.tried);
+    EXPECT_GT(along.found, 0.98 * along.tried);
 }
 
 TEST(Viewpoint, FromTheObservationAngleIsTheClassOfTheVisibleFacesOverTheFrustum) {

@@ -119,12 +119,30 @@ template <int n>
     return {vreinterpretq_s16_u16(vshrq_n_u16(vreinterpretq_u16_s16(a.v), n))};
 }
 inline void add_products(I32x4& sum, const I16x8& a, const I16x8& b) {
-    sum.v = vmlal_s16(sum.v, vget_low_s16(a.v), vget_low_s16(b.v));
-    sum.v = vmlal_s16(sum.v, vget_high_s16(a.v), vget_high_s16(b.v));
+    const int32x4_t low = vmull_s16(vget_low_s16(a.v), vget_low_s16(b.v));
+    const int32x4_t high = vmull_s16(vget_high_s16(a.v), vget_high_s16(b.v));
+    sum.v = vaddq_s32(sum.v, vcombine_s32(vpadd_s32(vget_low_s32(low), vget_high_s32(low)),
+                                          vpadd_s32(vget_low_s32(high), vget_high_s32(high))));
 }
 [[nodiscard]] inline std::int32_t total(const I32x4& a) {
     const int32x2_t pairs = vadd_s32(vget_low_s32(a.v), vget_high_s32(a.v));
     return vget_lane_s32(pairs, 0) + vget_lane_s32(pairs, 1);
+}
+
+[[nodiscard]] inline I32x4 splat32(std::int32_t x) {
+    return {vdupq_n_s32(x)};
+}
+[[nodiscard]] inline I32x4 add(const I32x4& a, const I32x4& b) {
+    return {vaddq_s32(a.v, b.v)};
+}
+template <int n>
+[[nodiscard]] inline I32x4 shift_right(const I32x4& a) {
+    return {vshrq_n_s32(a.v, n)};
+}
+[[nodiscard]] inline U8x16 narrow(const I32x4& a, const I32x4& b, const I32x4& c, const I32x4& d) {
+    const int16x8_t low = vcombine_s16(vmovn_s32(a.v), vmovn_s32(b.v));
+    const int16x8_t high = vcombine_s16(vmovn_s32(c.v), vmovn_s32(d.v));
+    return {vcombine_u8(vqmovun_s16(low), vqmovun_s16(high))};
 }
 
 }  // namespace semtrack::lanes_neon

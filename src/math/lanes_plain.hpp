@@ -192,7 +192,7 @@ template <int n>
 [[nodiscard]] inline I16x8 shift_right(const I16x8& a) {
     return each(a, a, [](int x, int) { return (x & 0xFFFF) >> n; });
 }
-/// sum += products of a and b, in four partial sums.
+/// sum += products of a and b: entry i those of the pair 2 i, 2 i + 1.
 inline void add_products(I32x4& sum, const I16x8& a, const I16x8& b) {
     for (std::size_t i = 0; i < 8; ++i) {
         sum.v[i / 2] += static_cast<std::int32_t>(a.v[i]) * b.v[i];
@@ -200,6 +200,39 @@ inline void add_products(I32x4& sum, const I16x8& a, const I16x8& b) {
 }
 [[nodiscard]] inline std::int32_t total(const I32x4& a) {
     return a.v[0] + a.v[1] + a.v[2] + a.v[3];
+}
+
+[[nodiscard]] inline I32x4 splat32(std::int32_t x) {
+    I32x4 out;
+    out.v.fill(x);
+    return out;
+}
+[[nodiscard]] inline I32x4 add(const I32x4& a, const I32x4& b) {
+    I32x4 out;
+    for (std::size_t i = 0; i < 4; ++i) {
+        out.v[i] = a.v[i] + b.v[i];
+    }
+    return out;
+}
+/// To the right by n bits; for values that are not negative.
+template <int n>
+[[nodiscard]] inline I32x4 shift_right(const I32x4& a) {
+    I32x4 out;
+    for (std::size_t i = 0; i < 4; ++i) {
+        out.v[i] = a.v[i] >> n;
+    }
+    return out;
+}
+/// a to d one after the other; for values of 0..255.
+[[nodiscard]] inline U8x16 narrow(const I32x4& a, const I32x4& b, const I32x4& c, const I32x4& d) {
+    U8x16 out;
+    for (std::size_t i = 0; i < 4; ++i) {
+        out.v[i] = static_cast<std::uint8_t>(a.v[i]);
+        out.v[i + 4] = static_cast<std::uint8_t>(b.v[i]);
+        out.v[i + 8] = static_cast<std::uint8_t>(c.v[i]);
+        out.v[i + 12] = static_cast<std::uint8_t>(d.v[i]);
+    }
+    return out;
 }
 
 }  // namespace semtrack::lanes_plain

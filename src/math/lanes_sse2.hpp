@@ -120,6 +120,20 @@ inline void add_products(I32x4& sum, const I16x8& a, const I16x8& b) {
     return _mm_cvtsi128_si32(_mm_add_epi32(pairs, _mm_shuffle_epi32(pairs, 1)));
 }
 
+[[nodiscard]] inline I32x4 splat32(std::int32_t x) {
+    return {_mm_set1_epi32(x)};
+}
+[[nodiscard]] inline I32x4 add(const I32x4& a, const I32x4& b) {
+    return {_mm_add_epi32(a.v, b.v)};
+}
+template <int n>
+[[nodiscard]] inline I32x4 shift_right(const I32x4& a) {
+    return {_mm_srli_epi32(a.v, n)};
+}
+[[nodiscard]] inline U8x16 narrow(const I32x4& a, const I32x4& b, const I32x4& c, const I32x4& d) {
+    return {_mm_packus_epi16(_mm_packs_epi32(a.v, b.v), _mm_packs_epi32(c.v, d.v))};
+}
+
 }  // namespace semtrack::lanes_sse2
 
 #endif

@@ -117,6 +117,16 @@ TEST_F(Lanes, SixteenBitArithmeticIsAsDefined) {
         lanes_plain::add_products(plain, plain_small, plain_small);
         lanes_plain::add_products(plain, py, plain_small);
         EXPECT_EQ(lanes::total(sum), lanes_plain::total(plain));
+        lanes::I32x4 quarter;
+        lanes_plain::I32x4 plain_quarter;
+        lanes::add_products(quarter, small, lanes::splat16(1));
+        lanes_plain::add_products(plain_quarter, plain_small, lanes_plain::splat16(1));
+        const auto byte_of = lanes::shift_right<6>(lanes::add(quarter, lanes::splat32(3)));
+        const auto plain_byte = lanes_plain::shift_right<6>(lanes_plain::add(plain_quarter, lanes_plain::splat32(3)));
+        const auto twice = lanes::shift_right<1>(byte_of);
+        const auto plain_twice = lanes_plain::shift_right<1>(plain_byte);
+        EXPECT_EQ(bytes(lanes::narrow(byte_of, twice, lanes::splat32(0), lanes::splat32(255))),
+                  lanes_plain::narrow(plain_byte, plain_twice, lanes_plain::splat32(0), lanes_plain::splat32(255)).v);
     }
     EXPECT_EQ(shorts(lanes::splat16(-5)), lanes_plain::splat16(-5).v);
 }

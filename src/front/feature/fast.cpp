@@ -152,18 +152,23 @@ void FastDetector::score_row(const ImageView& image, int y, int threshold, int m
 void FastDetector::keep_largest(const ScoredRow& above, const ScoredRow& here, const ScoredRow& below, int y, int first,
                                 int last, CornerGrid& out) {
     const std::uint32_t beyond_overlap = 0xFFFFU << static_cast<unsigned>((kBlock - (last - first) % kBlock) % kBlock);
-    std::array<std::uint16_t, static_cast<std::size_t>(kMaxImageWidth) + kBlock> columns;
-    int count = 0;
+    Blocks keeping;
+    std::array<std::uint32_t, static_cast<std::size_t>(kMaxImageWidth) / kBlock + 1> kept;  // of the blocks in `keeping`
     for (int k = 0; k < here.blocks.count; ++k) {
         const int x = here.blocks.x[static_cast<std::size_t>(k)];
-        std::uint32_t bits = maxima(above.score.data() + x, here.score.data() + x, below.score.data() + x);
-        bits &= x == last ? beyond_overlap : 0xFFFFU;
-        if (bits == 0U) {
-            continue;
-        }
-        for (int i = 0; i < kBlock; ++i, bits >>= 1U) {
-            columns[static_cast<std::size_t>(count)] = static_cast<std::uint16_t>(x + i);
-            count += static_cast<int>(bits & 1U);
+        const std::uint32_t bits = maxima(above.score.data() + x, here.score.data() + x, below.score.data() + x) &
+                                   (x == last ? beyond_overlap : 0xFFFFU);
+        kept[static_cast<std::size_t>(keeping.count)] = bits;
+        keeping.add_if(bits != 0U, x);
+    }
+    std::array<std::uint16_t, static_cast<std::size_t>(kMaxImageWidth) + kBlock> columns;
+    int count = 0;
+    for (int k = 0; k < keeping.count; ++k) {
+        const std::uint32_t bits = kept[static_cast<std::size_t>(k)];
+        for (unsigned i = 0; i < kBlock; ++i) {
+            columns[static_cast<std::size_t>(count)] =
+                static_cast<std::uint16_t>(keeping.x[static_cast<std::size_t>(k)] + i);
+            count += static_cast<int>((bits >> i) & 1U);
         }
     }
     for (int k = 0; k < count; ++k) {

@@ -32,6 +32,7 @@ public:
     [[nodiscard]] int cells() const { return kColumns * kRows; }
     [[nodiscard]] int count(int cell) const { return count_[static_cast<std::size_t>(cell)]; }
     [[nodiscard]] Corner corner(int cell, int i) const;
+    [[nodiscard]] int score(int cell, int i) const { return keys_[static_cast<std::size_t>(cell * kPerCell + i)] / 256; }
 
 private:
     // Score, then 255 minus the place in the cell's raster, best first; 0: none.

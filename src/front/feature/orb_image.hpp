@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "math/lanes.hpp"
 #include "semtrack/capacity.hpp"
 #include "semtrack/image_view.hpp"
 
@@ -40,13 +41,17 @@ private:
         std::int32_t at{0};      ///< left or upper of the two
         std::int32_t weight{0};  ///< of the other, 1/128
     };
-    struct Column {
-        std::uint64_t weights{0};  ///< right one's | left one's x 2^32
-        std::int64_t at{0};
-    };
+    static constexpr int kBlock = 16;
+    static constexpr std::size_t kPairBytes = 2 * sizeof(std::int16_t);
+    static constexpr std::size_t kPairs = 2 * (static_cast<std::size_t>(kMaxImageWidth) + kBlock);
     [[nodiscard]] static Tap tap(int x, int in_size, int size);
-    std::array<Column, static_cast<std::size_t>(kMaxImageWidth)> columns_{};
-    std::array<std::uint32_t, static_cast<std::size_t>(kMaxImageWidth) + 1> blended_{};  // two rows in one, x 128
+    void blend_rows(const std::uint8_t* upper, const std::uint8_t* lower, int width, int weight);
+    [[nodiscard]] lanes::U8x16 weighted(int x) const;
+
+    std::array<std::int32_t, static_cast<std::size_t>(kMaxImageWidth)> at_{};  // left of the two columns
+    std::array<std::int16_t, kPairs> weights_{};                               // left, right, 1/128
+    std::array<std::int16_t, kPairs> pairs_{};                                 // left, right, of blended_
+    std::array<std::int16_t, static_cast<std::size_t>(kMaxImageWidth) + 1> blended_{};  // two rows in one, x 128
 };
 
 }  // namespace semtrack

@@ -16,7 +16,8 @@ std::optional<double> share_below(const std::vector<double>& errors, std::int64_
     if (errors.empty()) {
         return std::nullopt;
     }
-    return static_cast<double>(std::count_if(errors.begin(), errors.end(), [=](double e) { return e < limit; })) / total;
+    return static_cast<double>(std::count_if(errors.begin(), errors.end(), [=](double e) { return e < limit; })) /
+           total;
 }
 
 }  // namespace
@@ -89,8 +90,7 @@ void StereoChecker::compare_with_labels(int frame, const Output& output, const P
         if (point.owner == 0 || !point.has_position) {
             continue;
         }
-        const Vec3 ray =
-            bearing(calibration_.left, static_cast<double>(point.u), static_cast<double>(point.v));
+        const Vec3 ray = bearing(calibration_.left, static_cast<double>(point.u), static_cast<double>(point.v));
         std::optional<SurfacePoint> nearest;
         for (const std::size_t i : rows_at(labels_, frame)) {
             const ObjectRow& label = objects_.labels[i];
@@ -122,9 +122,9 @@ void StereoChecker::add(int frame, const Output& output) {
     const Pose T_c_w = T_w_c.inverse();
     for (const SparsePoint& point : output.points) {
         if (point.owner == 0 && point.has_position) {
-            last_points_[point.id] = T_c_w * Vec3(static_cast<double>(point.position_w[0]),
-                                                  static_cast<double>(point.position_w[1]),
-                                                  static_cast<double>(point.position_w[2]));
+            last_points_[point.id] =
+                T_c_w * Vec3(static_cast<double>(point.position_w[0]), static_cast<double>(point.position_w[1]),
+                             static_cast<double>(point.position_w[2]));
         }
     }
     last_frame_ = frame;

@@ -15,8 +15,8 @@ class FrameTimes {
 public:
     /// Runs of one case have the same frames; InputError when they do not.
     void add(const std::filesystem::path& timing_csv);
-    /// NAME_ms, the median over the frames, and NAME_max_ms for the total, every stage, and front_end: the stages before
-    /// the estimator, infer to reject.
+    /// NAME_ms, the median over the frames, and NAME_max_ms for the total, every stage, and front_end: the stages
+    /// before the estimator, infer to reject.
     [[nodiscard]] nlohmann::ordered_json metrics() const;
 
 private:

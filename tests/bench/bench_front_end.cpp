@@ -104,8 +104,7 @@ void white_noise(benchmark::State& state) {
         for (int run = 0; run < kRuns; ++run) {
             front.start();
             for (int k = 0; k < kFrames; ++k) {
-                shortest[static_cast<std::size_t>(k)] =
-                    std::min(shortest[static_cast<std::size_t>(k)], front.frame(k));
+                shortest[static_cast<std::size_t>(k)] = std::min(shortest[static_cast<std::size_t>(k)], front.frame(k));
             }
         }
         std::sort(shortest.begin(), shortest.end());

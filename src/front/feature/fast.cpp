@@ -42,10 +42,10 @@ U8x16 contrast(const U8x16& bright, const U8x16& dark, const U8x16& centre) {
 bool may_hold_corner(const Circles& c, int x, const U8x16& threshold) {
     const U8x16 n = c.at<0, -3>(x), s = c.at<0, 3>(x), e = c.at<3, 0>(x), w = c.at<-3, 0>(x);
     const U8x16 ne = c.at<2, -2>(x), sw = c.at<-2, 2>(x), se = c.at<2, 2>(x), nw = c.at<-2, -2>(x);
-    const U8x16 bright = lanes::min(lanes::min(lanes::max(n, s), lanes::max(e, w)),
-                                    lanes::min(lanes::max(ne, sw), lanes::max(se, nw)));
-    const U8x16 dark = lanes::max(lanes::max(lanes::min(n, s), lanes::min(e, w)),
-                                  lanes::max(lanes::min(ne, sw), lanes::min(se, nw)));
+    const U8x16 bright =
+        lanes::min(lanes::min(lanes::max(n, s), lanes::max(e, w)), lanes::min(lanes::max(ne, sw), lanes::max(se, nw)));
+    const U8x16 dark =
+        lanes::max(lanes::max(lanes::min(n, s), lanes::min(e, w)), lanes::max(lanes::min(ne, sw), lanes::min(se, nw)));
     return any(lanes::sub_saturated(contrast(bright, dark, c.at<0, 0>(x)), threshold));
 }
 
@@ -153,7 +153,8 @@ void FastDetector::keep_largest(const ScoredRow& above, const ScoredRow& here, c
                                 int last, CornerGrid& out) {
     const std::uint32_t beyond_overlap = 0xFFFFU << static_cast<unsigned>((kBlock - (last - first) % kBlock) % kBlock);
     Blocks keeping;
-    std::array<std::uint32_t, static_cast<std::size_t>(kMaxImageWidth) / kBlock + 1> kept;  // of the blocks in `keeping`
+    std::array<std::uint32_t, static_cast<std::size_t>(kMaxImageWidth) / kBlock + 1>
+        kept;  // of the blocks in `keeping`
     for (int k = 0; k < here.blocks.count; ++k) {
         const int x = here.blocks.x[static_cast<std::size_t>(k)];
         const std::uint32_t bits = maxima(above.score.data() + x, here.score.data() + x, below.score.data() + x) &

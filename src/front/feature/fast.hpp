@@ -32,7 +32,9 @@ public:
     [[nodiscard]] int cells() const { return kColumns * kRows; }
     [[nodiscard]] int count(int cell) const { return count_[static_cast<std::size_t>(cell)]; }
     [[nodiscard]] Corner corner(int cell, int i) const;
-    [[nodiscard]] int score(int cell, int i) const { return keys_[static_cast<std::size_t>(cell * kPerCell + i)] / 256; }
+    [[nodiscard]] int score(int cell, int i) const {
+        return keys_[static_cast<std::size_t>(cell * kPerCell + i)] / 256;
+    }
 
 private:
     // Score, then 255 minus the place in the cell's raster, best first; 0: none.
@@ -49,8 +51,8 @@ public:
     Status detect(const ImageView& image, int threshold, int margin_px, CornerGrid& out);
 
 private:
-    /// Where blocks of 16 pixels begin. Adding has no branch: whether a block holds a corner is hard to guess, and a wrong
-    /// guess costs more than the test.
+    /// Where blocks of 16 pixels begin. Adding has no branch: whether a block holds a corner is hard to guess, and a
+    /// wrong guess costs more than the test.
     struct Blocks {
         std::array<std::uint16_t, static_cast<std::size_t>(kMaxImageWidth) / 16 + 1> x{};
         int count{0};
@@ -65,8 +67,8 @@ private:
         void clear(int width);
     };
     void score_row(const ImageView& image, int y, int threshold, int margin_px, ScoredRow& out);
-    void keep_largest(const ScoredRow& above, const ScoredRow& here, const ScoredRow& below, int y, int first,
-                      int last, CornerGrid& out);
+    void keep_largest(const ScoredRow& above, const ScoredRow& here, const ScoredRow& below, int y, int first, int last,
+                      CornerGrid& out);
 
     std::array<ScoredRow, 3> rows_{};
     Blocks possible_{};

@@ -48,9 +48,9 @@ private:
     void blend_rows(const std::uint8_t* upper, const std::uint8_t* lower, int width, int weight);
     [[nodiscard]] lanes::U8x16 weighted(int x) const;
 
-    std::array<std::int32_t, static_cast<std::size_t>(kMaxImageWidth)> at_{};  // left of the two columns
-    std::array<std::int16_t, kPairs> weights_{};                               // left, right, 1/128
-    std::array<std::int16_t, kPairs> pairs_{};                                 // left, right, of blended_
+    std::array<std::int32_t, static_cast<std::size_t>(kMaxImageWidth)> at_{};           // left of the two columns
+    std::array<std::int16_t, kPairs> weights_{};                                        // left, right, 1/128
+    std::array<std::int16_t, kPairs> pairs_{};                                          // left, right, of blended_
     std::array<std::int16_t, static_cast<std::size_t>(kMaxImageWidth) + 1> blended_{};  // two rows in one, x 128
 };
 

@@ -167,9 +167,9 @@ bool PatchTemplate::build_at(const ImageView& image, float u, float v, float she
     const OnGrid row(v);
     const int y0 = row.whole - kHalf;
     const float reach = static_cast<float>(kHalf) * std::fabs(shear) + static_cast<float>(kHalf) + 1.0F;
-    if (!(u - reach > 0.0F) || !(u + reach + static_cast<float>(kLanes - kSource) + 1.0F <
-                                 static_cast<float>(image.width)) ||
-        y0 < 0 || y0 + kSource + 1 > image.height) {
+    if (!(u - reach > 0.0F) ||
+        !(u + reach + static_cast<float>(kLanes - kSource) + 1.0F < static_cast<float>(image.width)) || y0 < 0 ||
+        y0 + kSource + 1 > image.height) {
         return false;
     }
     const RowWeights weights(row.part);

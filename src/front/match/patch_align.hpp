@@ -73,8 +73,8 @@ private:
     std::int32_t sum_{0};    // of the values
     std::int32_t sum_u_{0};  // of the gradients
     std::int32_t sum_v_{0};
-    double square_{0};   // of the values about their mean
-    double gain_u_{0};   // share of the gradient that a change of contrast explains
+    double square_{0};  // of the values about their mean
+    double gain_u_{0};  // share of the gradient that a change of contrast explains
     double gain_v_{0};
     double huu_{0};  // of the gradients, mean and contrast taken off
     double huv_{0};

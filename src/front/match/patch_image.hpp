@@ -57,8 +57,8 @@ using CoarsePatch = std::array<std::uint8_t, static_cast<std::size_t>(kCoarse) *
     const float offset = 0.5F * static_cast<float>(before - after) / static_cast<float>(curvature);
     return offset < -0.5F ? -0.5F : offset > 0.5F ? 0.5F : offset;
 }
-/// Where the rows of a coarse patch are looked up: row r of a patch about (x, y) at offset[r] from its corner. A slanted
-/// surface moves its rows sideways; upright ones do not.
+/// Where the rows of a coarse patch are looked up: row r of a patch about (x, y) at offset[r] from its corner. A
+/// slanted surface moves its rows sideways; upright ones do not.
 class CoarseRows {
 public:
     static constexpr int kLargestShift = 2;  ///< px to either side

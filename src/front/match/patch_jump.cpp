@@ -7,9 +7,9 @@ namespace semtrack {
 
 namespace {
 
-constexpr int kEvery = 7;       // slots; 73 of 512
-constexpr int kMinSample = 16;  // fewer say nothing
-constexpr int kJumpRadius = 24; // half-size px: 48 px are 3.8 deg at KITTI's focal length
+constexpr int kEvery = 7;        // slots; 73 of 512
+constexpr int kMinSample = 16;   // fewer say nothing
+constexpr int kJumpRadius = 24;  // half-size px: 48 px are 3.8 deg at KITTI's focal length
 constexpr float kAgree_px = 6.0F;
 constexpr int kMaxSample = kMaxBackgroundFeatures / kEvery + 1;
 

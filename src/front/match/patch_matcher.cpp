@@ -11,8 +11,8 @@ namespace {
 
 constexpr int kFastThreshold = 10;
 constexpr int kBorder_px = 14;
-constexpr int kWideRadius = 10;  // half-size px: motion or depth are not known yet
-constexpr int kCandidates = 2;   // corners tried per missing feature of the background
+constexpr int kWideRadius = 10;          // half-size px: motion or depth are not known yet
+constexpr int kCandidates = 2;           // corners tried per missing feature of the background
 constexpr std::uint32_t kRowsEvery = 4;  // a feature in four measures the row offset
 constexpr int kMaxCoarseDistance = kCoarse * kCoarse * 26;
 constexpr float kMaxShift_px = 3.0F;  // of the refinement: the coarse search is right to a pixel
@@ -147,10 +147,9 @@ bool PatchMatcher::locate(const MatcherInput& in, const Appearance& a, const Pre
     found.growth = growth < kMinGrowth ? kMinGrowth : growth > kMaxGrowth ? kMaxGrowth : growth;
     found.road = a.road && road_.may_show(found.v);
     const float inverse = 1.0F / found.growth;
-    const PatchWarp warp =
-        found.road ? road_.warp(found.u, found.v, found.growth) : PatchWarp{inverse, 0.0F, inverse};
-    return template_.build(a.reference, warp) &&
-           template_.align(in.left, kMaxShift_px, found.u, found.v, found.ncc) && found.ncc >= kMinCorrelation;
+    const PatchWarp warp = found.road ? road_.warp(found.u, found.v, found.growth) : PatchWarp{inverse, 0.0F, inverse};
+    return template_.build(a.reference, warp) && template_.align(in.left, kMaxShift_px, found.u, found.v, found.ncc) &&
+           found.ncc >= kMinCorrelation;
 }
 
 bool PatchMatcher::follow_one(const MatcherInput& in, int owner, int s, double fallback_depth_m) {
@@ -335,8 +334,8 @@ void PatchMatcher::emit(int owner, int s, FrameFeatures& out) {
 Status PatchMatcher::process(const MatcherInput& in, FrameFeatures& out) {
     out.clear();
     if (in.left.empty() || in.mask_left == nullptr || in.priors == nullptr || in.calibration == nullptr ||
-        in.left.width > kMaxImageWidth || in.left.height > kMaxImageHeight ||
-        in.left.width < PatchImage::kMinSide_px || in.left.height < PatchImage::kMinSide_px || in.mask_left->width != in.left.width ||
+        in.left.width > kMaxImageWidth || in.left.height > kMaxImageHeight || in.left.width < PatchImage::kMinSide_px ||
+        in.left.height < PatchImage::kMinSide_px || in.mask_left->width != in.left.width ||
         in.mask_left->height != in.left.height ||
         (!in.right.empty() && (in.right.width != in.left.width || in.right.height != in.left.height))) {
         return Status::kInvalidArgument;

@@ -59,8 +59,9 @@ bool PatchMatcher::search_row(const CoarsePatch& coarse, const CoarseRows& rows,
         return false;
     }
     const auto beside = [&](int dx) {
-        return rows.inside(right_half_, best_x + dx, best_row) ? patch.distance(right_half_, best_x + dx, best_row, rows)
-                                                               : best;
+        return rows.inside(right_half_, best_x + dx, best_row)
+                   ? patch.distance(right_half_, best_x + dx, best_row, rows)
+                   : best;
     };
     offset = parabola_offset(beside(-1), best, beside(1));
     return true;
@@ -175,8 +176,8 @@ bool PatchMatcher::match_new(const MatcherInput& in, int owner, const FeatureSlo
         const double d = static_cast<double>(road_.disparity(slot.v));
         const double reach = kRoadReach_px + kRoadReach * d;
         RowMatch other;
-        if (match_between(in, slot, true, d - reach > d_low ? d - reach : d_low, d + reach < d_high ? d + reach : d_high,
-                          true, other) &&
+        if (match_between(in, slot, true, d - reach > d_low ? d - reach : d_low,
+                          d + reach < d_high ? d + reach : d_high, true, other) &&
             (!found || other.ncc > out.ncc)) {
             out = other;
             found = true;

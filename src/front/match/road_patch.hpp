@@ -25,8 +25,8 @@ public:
     [[nodiscard]] bool may_show(float v) const { return slope_ > 0.0F && v - cy_ > kMinRows_px; }
     /// Disparity of the road at a row that may show it.
     [[nodiscard]] float disparity(float v) const { return slope_ * (v - cy_); }
-    /// The road's part of what PatchTemplate::build wants, for a patch now at (u, v) that was `growth` times deeper when
-    /// its reference was taken. v must show the road.
+    /// The road's part of what PatchTemplate::build wants, for a patch now at (u, v) that was `growth` times deeper
+    /// when its reference was taken. v must show the road.
     [[nodiscard]] PatchWarp warp(float u, float v, float growth) const;
 
     static constexpr float kMinRows_px = 20.0F;

@@ -58,9 +58,9 @@ TEST(RoadPlane, WarpIsTheDerivativeOfThePlanesMotion) {
 struct RoadRun {
     int features{0};  // in the last frame
     int stereo{0};
-    int old{0};               // seen in five frames or more
+    int old{0};                // seen in five frames or more
     double disparity_bias{0};  // px, mean
-    double motion_error{0};     // px along the rows or columns, median
+    double motion_error{0};    // px along the rows or columns, median
 };
 
 /// Six frames along the road.
@@ -87,7 +87,8 @@ RoadRun drive(double camera_height_m) {
         if (m.tracked) {
             const double before = RoadScene::depth(static_cast<double>(m.previous_v));
             const double k = before / (before - kStep_m);
-            const double eu = (static_cast<double>(m.previous_u) - c.left.cx) * k + c.left.cx - static_cast<double>(m.u);
+            const double eu =
+                (static_cast<double>(m.previous_u) - c.left.cx) * k + c.left.cx - static_cast<double>(m.u);
             const double ev = (static_cast<double>(m.previous_v) - c.left.cy) * k + c.left.cy - v;
             errors.push_back(std::max(std::fabs(eu), std::fabs(ev)));
         }

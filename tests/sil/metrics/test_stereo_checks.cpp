@@ -102,7 +102,7 @@ TEST_F(StereoChecks, AFrameThatIsMissingIsNotBridged) {
 TEST_F(StereoChecks, DepthIsComparedOnTheLowerHalfOfTheNearestBoxsSides) {
     objects_.labels = {label(20.0, 0.0), label(40.0, 0.0)};  // seen from the side: near face at 19 m
     StereoChecker checker(camera(), {0.0, 0.0, 0.0}, truth_, objects_);
-    (void)output_->points.try_push_back(point(1, Vec3(0.5, 1.2, 19.0), 0.0, 3));         // exact
+    (void)output_->points.try_push_back(point(1, Vec3(0.5, 1.2, 19.0), 0.0, 3));          // exact
     (void)output_->points.try_push_back(point(2, Vec3(-0.5, 1.2, 19.0) * 1.04, 0.0, 3));  // 4 % too far
     (void)output_->points.try_push_back(point(3, Vec3(0.5, 0.4, 19.0) * 1.5, 0.0, 3));    // upper half: does not count
     (void)output_->points.try_push_back(point(4, Vec3(9.0, 1.2, 19.0), 0.0, 3));          // beside

@@ -20,8 +20,9 @@ protected:
 
 TEST_F(TableMetrics, TimesAreMedianAndMaximumInMilliseconds) {
     FrameTimes times;
-    times.add(file("frame,total_us,match_us,reject_us,ego_us,features\n0,3000,100,10,7,5\n1,1000,300,20,8,5\n"
-                   "2,2000,200,60,9,5\n"));
+    times.add(
+        file("frame,total_us,match_us,reject_us,ego_us,features\n0,3000,100,10,7,5\n1,1000,300,20,8,5\n"
+             "2,2000,200,60,9,5\n"));
     const auto metrics = times.metrics();
     EXPECT_DOUBLE_EQ(metrics["total_ms"].get<double>(), 2.0);
     EXPECT_DOUBLE_EQ(metrics["total_max_ms"].get<double>(), 3.0);

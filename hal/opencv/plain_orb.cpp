@@ -6,17 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#if defined(__GNUC__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wold-style-cast"
-#endif
-#include <opencv2/core.hpp>
-#include <opencv2/features2d.hpp>
-#if defined(__GNUC__)
-#pragma GCC diagnostic pop
-#endif
+#include "hal/opencv/opencv_headers.hpp"
 
 namespace semtrack {
 

@@ -13,6 +13,8 @@ import subprocess
 import sys
 import tempfile
 
+from boxes import overlap
+
 SIL = sys.argv[1]
 
 # name, highest value (lowest for shares); measured: see docs/testing.md
@@ -76,14 +78,6 @@ def check_world(folder):
         if name not in broken(metrics, WORLD_BOUNDS):
             problems.append(f"with the cues {cues} alone {name} still holds: {value_of(metrics, name)}")
     return problems
-
-
-def overlap(a, b):
-    width = min(a[2], b[2]) - max(a[0], b[0])
-    height = min(a[3], b[3]) - max(a[1], b[1])
-    if width <= 0 or height <= 0:
-        return 0.0
-    return width * height / ((a[2] - a[0]) * (a[3] - a[1]) + (b[2] - b[0]) * (b[3] - b[1]) - width * height)
 
 
 def truck_speed_error(drive, results):

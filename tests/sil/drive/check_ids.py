@@ -9,6 +9,8 @@ import subprocess
 import sys
 import tempfile
 
+from boxes import overlap
+
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from checks import check, finish  # noqa: E402
 
@@ -32,14 +34,6 @@ def rows_of(path):
         if row[2] != "DontCare":
             out[int(row[0])].append((int(row[1]), row[2], [float(v) for v in row[6:10]]))
     return out
-
-
-def overlap(a, b):
-    width = min(a[2], b[2]) - max(a[0], b[0])
-    height = min(a[3], b[3]) - max(a[1], b[1])
-    if width <= 0 or height <= 0:
-        return 0.0
-    return width * height / ((a[2] - a[0]) * (a[3] - a[1]) + (b[2] - b[0]) * (b[3] - b[1]) - width * height)
 
 
 def count(labels, results):

@@ -29,6 +29,7 @@ struct MatcherInput {
 struct FeatureSlot {
     bool live{false};
     bool stereo{false};
+    std::uint8_t missed{0};  ///< frames since it was seen; then u, v, u_right are predictions
     std::uint16_t age{0};
     std::uint32_t id{0};
     float u{0};

@@ -11,9 +11,11 @@ namespace {
 
 constexpr int kFastThreshold = 10;
 constexpr int kBorder_px = 14;
-constexpr int kWideRadius = 10;          // half-size px: motion or depth are not known yet
-constexpr int kCandidates = 2;           // corners tried per missing feature of the background
-constexpr std::uint32_t kRowsEvery = 4;  // a feature in four measures the row offset
+constexpr int kWideRadius = 10;             // half-size px: motion or depth are not known yet
+constexpr std::uint8_t kMaxMissed = 2;      // frames that a feature is waited for
+constexpr std::uint16_t kMinAgeToWait = 2;  // frames seen: younger ones were often no good
+constexpr int kCandidates = 2;              // corners tried per missing feature of the background
+constexpr std::uint32_t kRowsEvery = 4;     // a feature in four measures the row offset
 constexpr int kMaxCoarseDistance = kCoarse * kCoarse * 26;
 constexpr float kMaxShift_px = 3.0F;  // of the refinement: the coarse search is right to a pixel
 constexpr float kMinCorrelation = 0.75F;
@@ -166,7 +168,8 @@ bool PatchMatcher::follow_one(const MatcherInput& in, int owner, int s, double f
     }
     FeatureMeasurement& m = now_[static_cast<std::size_t>(first_feature_slot(owner) + s)];
     m = FeatureMeasurement{};
-    m.tracked = true;
+    m.tracked = slot.missed == 0;
+    slot.missed = 0;
     m.previous_u = slot.u;
     m.previous_v = slot.v;
     m.previous_u_right = slot.u_right;
@@ -189,6 +192,21 @@ bool PatchMatcher::follow_one(const MatcherInput& in, int owner, int s, double f
         a.road = slot.stereo ? match.road : found.road;
         remember(in, slot, a, slot.stereo ? depth_of(in, slot) : at.measured ? at.depth_m : 0.0F);
     }
+    return true;
+}
+
+// A feature with a depth that was not found is looked for again where its owner's motion takes it.
+bool PatchMatcher::wait(const MatcherInput& in, int owner, FeatureSlot& slot, double fallback_depth_m) const {
+    Prediction at;
+    if (slot.missed >= kMaxMissed || slot.age < kMinAgeToWait || !predict(in, owner, slot, fallback_depth_m, at) ||
+        !at.measured || !allowed(in, owner, at.u, at.v)) {
+        return false;
+    }
+    ++slot.missed;
+    slot.u = at.u;
+    slot.v = at.v;
+    slot.u_right =
+        static_cast<float>(right_column(*in.calibration, static_cast<double>(at.u), static_cast<double>(at.depth_m)));
     return true;
 }
 
@@ -230,8 +248,10 @@ void PatchMatcher::follow(const MatcherInput& in, int owner) {
             continue;
         }
         if (!follow_one(in, owner, s, fallback)) {
-            slot.live = false;
-            continue;
+            slot.live = wait(in, owner, slot, fallback);
+            if (!slot.live) {
+                continue;
+            }
         }
         selector_.occupy(owner, slot.u, slot.v);
     }
@@ -244,7 +264,7 @@ void PatchMatcher::add_new(const MatcherInput& in) {
         const OwnerPrior& prior = (*in.priors)[static_cast<std::size_t>(owner)];
         int alive = 0;
         for (int s = 0; s < feature_slots(owner); ++s) {
-            alive += table_.at(owner, s).live ? 1 : 0;
+            alive += table_.at(owner, s).live && table_.at(owner, s).missed == 0 ? 1 : 0;
         }
         const int wanted = prior.budget < feature_slots(owner) ? prior.budget : feature_slots(owner);
         const auto o = static_cast<std::size_t>(owner);
@@ -289,6 +309,7 @@ bool PatchMatcher::start(const MatcherInput& in, const SelectedCorner& c, int s)
         return false;
     }
     slot.age = 0;
+    slot.missed = 0;
     a.road = match.road;
     remember(in, slot, a, depth_of(in, slot));
     remember_coarse(slot, a);
@@ -366,7 +387,7 @@ Status PatchMatcher::process(const MatcherInput& in, FrameFeatures& out) {
     row_.update();
     for (int owner = 0; owner < kMaxOwners; ++owner) {
         for (int s = 0; s < feature_slots(owner); ++s) {
-            if (table_.at(owner, s).live) {
+            if (table_.at(owner, s).live && table_.at(owner, s).missed == 0) {
                 emit(owner, s, out);
             }
         }

@@ -1,6 +1,8 @@
 // Patch matcher on walls and boards whose every match is known.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "front/match/patch_matcher.hpp"
 #include "support/plane_scene.hpp"
 
@@ -126,6 +128,41 @@ TEST_F(PatchMatcherTest, WhenNothingIsLikeBeforeNothingIsFollowed) {
     }
     EXPECT_LT(tracked, features_->size() / 4) << "smooth patches are alike by chance; RANSAC is there for them";
     EXPECT_GT(features_->size(), 200) << "new ones are taken";
+}
+
+TEST_F(PatchMatcherTest, AFeatureThatIsNotSeenForAFrameOrTwoIsFoundAgainUnderItsId) {
+    for (const int hidden : {1, 2, 3}) {
+        matcher_->reset();
+        PlaneScene scene;
+        OwnerPriors priors = still_priors(false);
+        priors[0].T_cur_prev = sideways(4.0, scene.wall_depth_m);
+        int k = 0;
+        for (; k < 5; ++k) {
+            ASSERT_EQ(run(PlaneFrame(scene, 4.0 * k, 0, 0), scene, priors), Status::kOk);
+        }
+        std::set<std::uint32_t> before;
+        for (const FeatureMeasurement& m : *features_) {
+            if (m.u > 240.0F && m.u < 390.0F && m.v > 80.0F && m.v < 160.0F && m.age >= 3) {
+                before.insert(m.id);
+            }
+        }
+        ASSERT_GE(before.size(), 15U);
+        scene.gain = 0.0;  // the left camera is blind
+        for (int i = 0; i < hidden; ++i, ++k) {
+            ASSERT_EQ(run(PlaneFrame(scene, 4.0 * k, 0, 0), scene, priors), Status::kOk);
+        }
+        scene.gain = 1.0;
+        ASSERT_EQ(run(PlaneFrame(scene, 4.0 * k, 0, 0), scene, priors), Status::kOk);
+        std::size_t again = 0;
+        for (const FeatureMeasurement& m : *features_) {
+            again += before.count(m.id);
+        }
+        if (hidden <= 2) {
+            EXPECT_GE(again, before.size() / 2) << hidden;
+        } else {
+            EXPECT_LE(again, before.size() / 4) << "after three frames they are gone";
+        }
+    }
 }
 
 TEST_F(PatchMatcherTest, IdentityLastsWhileAFeatureIsSeenAndIdsAreNeverUsedTwice) {

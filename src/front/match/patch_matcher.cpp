@@ -178,7 +178,7 @@ bool PatchMatcher::follow_one(const MatcherInput& in, int owner, int s, double f
     m.correlation = found.ncc;
     slot.u = found.u;
     slot.v = found.v;
-    ++slot.age;
+    slot.age = static_cast<std::uint16_t>(slot.age < 65535 ? slot.age + 1 : slot.age);
     ++a.age;
     remember_coarse(slot, a);
     const double d = in.calibration->left.fx * in.calibration->baseline_m / static_cast<double>(at.depth_m);
@@ -195,11 +195,12 @@ bool PatchMatcher::follow_one(const MatcherInput& in, int owner, int s, double f
     return true;
 }
 
-// A feature with a depth that was not found is looked for again where its owner's motion takes it.
+// A feature of the background with a depth that was not found is looked for again where the motion takes it. Objects'
+// motion is not known well enough: features that waited on a car passing by gave it a speed that was off by 3 m/s.
 bool PatchMatcher::wait(const MatcherInput& in, int owner, FeatureSlot& slot, double fallback_depth_m) const {
     Prediction at;
-    if (slot.missed >= kMaxMissed || slot.age < kMinAgeToWait || !predict(in, owner, slot, fallback_depth_m, at) ||
-        !at.measured || !allowed(in, owner, at.u, at.v)) {
+    if (owner != kBackground || slot.missed >= kMaxMissed || slot.age < kMinAgeToWait ||
+        !predict(in, owner, slot, fallback_depth_m, at) || !at.measured || !allowed(in, owner, at.u, at.v)) {
         return false;
     }
     ++slot.missed;

@@ -22,9 +22,9 @@ public:
     void reset();
     /// Follows the live features, finds their right image, fills empty cells with new corners. A new corner of the
     /// background is taken only with a stereo match and when the last motion keeps it in the image: others are lost a
-    /// frame later (three of four, measured) and would keep a place from one that lasts. A feature that is not found is
-    /// waited for where its owner's motion takes it, for two frames; its id stays. out is sorted by owner, then slot.
-    /// kInvalidArgument: image sizes do not fit; nothing changes.
+    /// frame later (three of four, measured) and would keep a place from one that lasts. One that is
+    /// not found is waited for where the motion takes it, for two frames; its id stays. out is sorted by owner, then
+    /// slot. kInvalidArgument: image sizes do not fit; nothing changes.
     Status process(const MatcherInput& input, FrameFeatures& out);
     /// An outlier: its slot is freed.
     void reject(int owner, int slot) { table_.at(owner, slot).live = false; }

@@ -1,6 +1,6 @@
-// Point-cloud alignment, paper last equation of Sect. 5.2: the box moves so that its visible faces meet the recovered
-// points. It is a change of the object frame: poses and points of the whole window move together, so r_Z does not
-// change. The size stays. The result of the MAP step holds the directions that the points do not determine.
+// Point-cloud alignment, paper Eq. (17), the last of Sect. 5.2: the box moves so that its visible faces meet the
+// recovered points. It is a change of the object frame: poses and points of the whole window move together, so r_Z does
+// not change. The size stays. The result of the MAP step holds the directions that the points do not determine.
 #ifndef SEMTRACK_ESTIMATE_ALIGN_ALIGN_BOX_HPP
 #define SEMTRACK_ESTIMATE_ALIGN_ALIGN_BOX_HPP
 

@@ -23,7 +23,8 @@ struct ObjectSceneOptions {
     double edge_noise_px{1.0};
     double feature_noise_px{0.25};
     int features{40};
-    int outliers{0};  ///< of the features: on the wall behind
+    int outliers{0};          ///< of the features: on the wall behind
+    bool transparent{false};  ///< faces that look away are seen too
     std::uint32_t seed{1};
 };
 
@@ -121,7 +122,7 @@ private:
             const Vec3& x_o = points_o_[slot];
             const bool outlier = i < options_.outliers;
             const Vec3 half = 0.5 * options_.size_m;
-            bool facing = outlier;
+            bool facing = outlier || options_.transparent;
             for (int axis = 0; axis < 2; ++axis) {
                 facing = facing || (std::fabs(x_o(axis)) > half(axis) - 1e-9 && x_o(axis) * camera_o(axis) > 0.0 &&
                                     std::fabs(camera_o(axis)) > half(axis));

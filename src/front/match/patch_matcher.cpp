@@ -1,7 +1,5 @@
-// Following features in time, and bookkeeping. Stereo is in patch_stereo.cpp.
+// Following features in time, and bookkeeping. Stereo is in patch_stereo.cpp, jumps of the image in patch_jump.cpp.
 #include "front/match/patch_matcher.hpp"
-
-#include <cmath>
 
 #include "math/camera.hpp"
 
@@ -26,16 +24,6 @@ constexpr float kMinGrowth = 0.75F;
 constexpr float kMaxGrowth = 1.3F;
 constexpr double kFallbackDepth_m = 20.0;
 constexpr float kSigma_px = 0.25F;
-
-bool finite(const Pose& T) {
-    double sum = T.t(0) + T.t(1) + T.t(2);
-    for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 3; ++c) {
-            sum += T.R(r, c);
-        }
-    }
-    return std::isfinite(sum);
-}
 
 }  // namespace
 
@@ -129,7 +117,7 @@ bool PatchMatcher::predict(const MatcherInput& in, int owner, const FeatureSlot&
     out.measured = depth > 0.0F;
     const Vec3 x_before = bearing(in.calibration->left, static_cast<double>(slot.u), static_cast<double>(slot.v)) *
                           (out.measured ? static_cast<double>(depth) : fallback_depth_m);
-    const Vec3 x_now = finite(T) ? T * x_before : x_before;
+    const Vec3 x_now = is_finite(T) ? T * x_before : x_before;
     if (!(x_now(2) > kMinDepth_m)) {
         return false;
     }
@@ -326,7 +314,7 @@ bool PatchMatcher::start(const MatcherInput& in, const SelectedCorner& c, int s)
 bool PatchMatcher::leaves(const MatcherInput& in, const FeatureSlot& slot) const {
     const Pose& T = (*in.priors)[static_cast<std::size_t>(kBackground)].T_cur_prev;
     const float z = depth_of(in, slot);
-    if (!finite(T) || !(z > 0.0F)) {
+    if (!is_finite(T) || !(z > 0.0F)) {
         return false;
     }
     const Vec3 x_next = T * (bearing(in.calibration->left, static_cast<double>(slot.u), static_cast<double>(slot.v)) *

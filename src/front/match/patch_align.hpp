@@ -45,7 +45,6 @@ public:
     [[nodiscard]] bool align_row(const ImageView& image, float max_shift_px, float& u, float v, float& ncc) const;
     /// Sum of squared gradients, (grey levels per px)^2: 1 / sigma^2 of the position at one grey level of noise.
     [[nodiscard]] float texture_u() const { return static_cast<float>(huu_) * kGradientUnit * kGradientUnit; }
-    [[nodiscard]] float texture_v() const { return static_cast<float>(hvv_) * kGradientUnit * kGradientUnit; }
 
 private:
     // Values are in 1/16 grey level about 128, gradients (differences over two px) in 1/32 grey level per px. A row of

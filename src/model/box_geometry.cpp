@@ -57,11 +57,6 @@ constexpr Tables make_tables() {
 
 constexpr Tables kTables = make_tables();
 
-BoxVertex vertex(int i) {
-    return {static_cast<std::int8_t>((i & 1) != 0 ? 1 : -1), static_cast<std::int8_t>((i & 2) != 0 ? 1 : -1),
-            static_cast<std::int8_t>((i & 4) != 0 ? 1 : -1)};
-}
-
 void extend(const PinholeCamera& camera, const Vec3& x_c, bool& any, Box2d& box) {
     const Vec2 q = project(camera, x_c);
     if (!any) {
@@ -76,6 +71,11 @@ void extend(const PinholeCamera& camera, const Vec3& x_c, bool& any, Box2d& box)
 }
 
 }  // namespace
+
+BoxVertex box_vertex(int i) {
+    return {static_cast<std::int8_t>((i & 1) != 0 ? 1 : -1), static_cast<std::int8_t>((i & 2) != 0 ? 1 : -1),
+            static_cast<std::int8_t>((i & 4) != 0 ? 1 : -1)};
+}
 
 const EdgeVertices& edge_vertices(Viewpoint viewpoint) {
     const int h = viewpoint.horizontal & (kHorizontal - 1);
@@ -100,7 +100,7 @@ Status extreme_vertices(const PinholeCamera& camera, const Pose& T_c_o, const Ve
     EdgeVertices found{};
     double best[kBoxEdges] = {0.0, 0.0, 0.0, 0.0};
     for (int i = 0; i < 8; ++i) {
-        const BoxVertex corner = vertex(i);
+        const BoxVertex corner = box_vertex(i);
         const Vec3 x_c = T_c_o * corner.scaled(size_m);
         if (!(x_c(2) >= kMinDepth_m)) {
             return Status::kBehindCamera;
@@ -121,7 +121,7 @@ Status extreme_vertices(const PinholeCamera& camera, const Pose& T_c_o, const Ve
 Status projected_box(const PinholeCamera& camera, const Pose& T_c_o, const Vec3& size_m, Box2d& out) {
     Vec3 corners[8];
     for (int i = 0; i < 8; ++i) {
-        corners[i] = T_c_o * vertex(i).scaled(size_m);
+        corners[i] = T_c_o * box_vertex(i).scaled(size_m);
     }
     bool any = false;
     Box2d box;

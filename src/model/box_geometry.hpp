@@ -25,6 +25,9 @@ struct BoxVertex {
     }
 };
 
+/// The eight of them, 0..7; two that are joined by a side of the box differ in one bit.
+[[nodiscard]] BoxVertex box_vertex(int i);
+
 enum BoxEdge : int { kLeft = 0, kRight = 1, kTop = 2, kBottom = 3 };  // order of the paper's Eq. (1)
 inline constexpr int kBoxEdges = 4;
 /// Vertex of each edge, C_1..C_4.

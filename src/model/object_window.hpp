@@ -10,6 +10,7 @@
 
 #include "math/eigen.hpp"
 #include "math/pose.hpp"
+#include "model/ground_plane.hpp"
 #include "semtrack/capacity.hpp"
 #include "semtrack/static_vector.hpp"
 #include "semtrack/types.hpp"
@@ -52,6 +53,7 @@ struct ObjectFrame {
     ObjectState state{};
     Pose T_c_l{};  ///< camera pose of the frame, refreshed from the ego history every cycle
     BoxMeasurement box{};
+    GroundPlane ground{};  ///< the road at that frame, without what the object itself says of it
     std::array<FeatureObservation, kMaxObjectFeatures> features{};
 };
 

@@ -6,6 +6,7 @@
 #include "math/trig.hpp"
 #include "model/box_geometry.hpp"
 #include "model/class_prior.hpp"
+#include "pipeline/ranking.hpp"
 
 namespace semtrack {
 
@@ -13,8 +14,6 @@ namespace {
 
 constexpr double kMovingSpeed = 0.5;    // m/s
 constexpr int kYoung_frames = 3;        // too early to say how it moves
-constexpr double kCoastingScore = 0.9;  // per frame without detection
-constexpr double kFramesForTrust = 3.0;
 
 std::array<double, 3> array3(const Vec3& x) {
     return {x(0), x(1), x(2)};
@@ -37,18 +36,6 @@ MovementState movement(const Track& track, double yaw_v) {
         return MovementState::kReversing;
     }
     return sin_cos(yaw_v).cos < -0.5 ? MovementState::kOncoming : MovementState::kMoving;
-}
-
-/// Ranking: existence, frames seen, and how far the overlap with the true box is to be trusted (depth sigma against
-/// the length).
-double ranking_score(const Track& track, double sigma_depth_m) {
-    const double n = static_cast<double>(track.hits);
-    const double overlap = 1.0 / (1.0 + sigma_depth_m / 2.0);
-    double score = track.existence * overlap * (0.5 + 0.5 * track.detector_score) * n / (n + kFramesForTrust);
-    for (int k = 0; k < track.frames_unseen && k < 20; ++k) {
-        score *= kCoastingScore;
-    }
-    return score < 0.0 ? 0.0 : score > 1.0 ? 1.0 : score;
 }
 
 void describe_motion(const Track& track, const EgoView& ego, const Mat3& R_w_l, TrackedObject& o) {
@@ -168,7 +155,7 @@ bool describe_track(const Track& track, int slot, const EgoView& ego, const Cali
     o.sigma_size = root_diagonal(window.size_covariance);
     describe_motion(track, ego, R_w_l, o);
     o.movement = movement(track, o.yaw_v);
-    o.score = ranking_score(track, o.sigma_position_v[0]);
+    o.score = ranking_score(track);
     Pose T_l_o = frame.state.T_l_o();
     const Pose T_c_w = ego.T_w_c.inverse();
     const Pose T_c_l{T_c_w.R * R_w_l, T_c_w.t};

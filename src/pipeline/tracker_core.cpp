@@ -57,6 +57,7 @@ Status TrackerCore::init(const Config& config, const Calibration& calibration, F
     T_w_c_ = T_v_c_;
     level_.reset();
     ego_.init(calibration);
+    ground_.init(config);
     objects_.init(calibration, config);
     tracks_.reset();
     patch_.reset();
@@ -95,6 +96,7 @@ Status TrackerCore::process(const Input& input, Output& output) {
     time_us_ = input.time_us;
     T_w_c_ = predict_ego(input);
 
+    ground_.fade(dt_s);
     predict_tracks();   // the state of every track at this frame
     take_lists(input);  // 1, 2: infer, associate, attach
     build_masks();      // 3
@@ -182,6 +184,7 @@ void TrackerCore::build_output(Output& output) {
         TrackedObject object;
         if (!describe_track(track, s, view, calibration_, object)) {
             tracks_.remove(s);  // a state that is not finite is worth nothing
+            ground_.release(s);
             continue;
         }
         object.rejected = features_usable_ ? rejection_.rejected(s + 1) : 0;
@@ -190,6 +193,7 @@ void TrackerCore::build_output(Output& output) {
         }
         if (lost) {
             tracks_.remove(s);
+            ground_.release(s);
         }
     }
     describe_points(output);

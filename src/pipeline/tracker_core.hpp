@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "estimate/ego/ego_estimator.hpp"
+#include "estimate/ground/ground_estimator.hpp"
 #include "estimate/object/object_estimator.hpp"
 #include "front/associate/associate.hpp"
 #include "front/box/infer_box.hpp"
@@ -62,6 +63,7 @@ private:
     void attach(Track& track, int index, const DetectionList& list, int item, std::uint32_t frame);
     void start_track(const DetectionList& list, int item, std::uint32_t frame);
     void fill_window(ObjectWindow& window, const ObjectState& first, std::int64_t first_us, std::uint32_t first_frame);
+    void learn_ground(const Track& track, int slot, int index);
     void watch_heading(Track& track, int index, const Detection& detection);
     [[nodiscard]] bool infer(const Detection& detection, const Pose& T_c_l, const Vec3& size_m, const double* theta,
                              ObjectState& x) const;
@@ -98,6 +100,7 @@ private:
     LocalLevel level_{};
     EgoEstimator ego_{};
     EgoResult ego_result_{};
+    GroundEstimator ground_{};
     ObjectEstimator objects_{};
     TrackTable tracks_{};
     PatchMatcher patch_{};

@@ -3,8 +3,10 @@
 #include <cmath>
 
 #include "estimate/factor/box_edges.hpp"
+#include "model/stand_point.hpp"
 #include "math/so3.hpp"
 #include "math/trig.hpp"
+#include "model/box_outline.hpp"
 #include "model/class_prior.hpp"
 #include "pipeline/tracker_core.hpp"
 #include "pipeline/usable_detections.hpp"
@@ -14,21 +16,36 @@ namespace semtrack {
 namespace {
 
 constexpr std::int64_t kSameImage_us = 5000;  // stamps of one image may differ by rounding, not by half a frame
-constexpr double kBorder_px = 1.5;            // an edge this near to the border is the border's, not the object's
+constexpr double kBorder_px = 1.5;            // an edge this near to the border is the border's, not the object's,
+constexpr double kBorderSigmas = 2.5;         // or this near: detectors draw cut boxes some pixels short of the border
 constexpr int kWrongViews = 3;                // detections in a row that contradict the heading
 constexpr double kStartDepthSigma = 0.15;     // of the depth: a size prior is off by so much
 
 /// Edges of a detector scatter by 0.8 px and 2 % of the height; sideways more; hidden ones twice; and they are
 /// correlated over a window (0.75-0.79 from frame to frame), which twice the sigma accounts for.
-std::array<double, 4> edge_sigmas(const DetectionList& list, int item, int width, int height) {
+double edge_scatter_px(const Box2d& box) {
     constexpr double kBase_px = 0.8;
     constexpr double kShareOfHeight = 0.022;
+    const double h = kShareOfHeight * (box.bottom - box.top);
+    return std::sqrt(kBase_px * kBase_px + h * h);
+}
+
+/// Edges that are the border's are put on it.
+Box2d drawn_to_border(const Box2d& box, int width, int height) {
+    const double near = kBorderSigmas * edge_scatter_px(box);
+    const double margin = near > kBorder_px ? near : kBorder_px;
+    const double right = static_cast<double>(width - 1);
+    const double bottom = static_cast<double>(height - 1);
+    return {box.left < margin ? 0.0 : box.left, box.top < margin ? 0.0 : box.top,
+            box.right > right - margin ? right : box.right, box.bottom > bottom - margin ? bottom : box.bottom};
+}
+
+std::array<double, 4> edge_sigmas(const DetectionList& list, int item, int width, int height) {
     constexpr double kSideways = 1.25;
     constexpr double kHidden = 2.0;
     constexpr double kCorrelated = 2.0;
     const Box2d& box = list.items[item].box;
-    const double h = kShareOfHeight * (box.bottom - box.top);
-    const double sigma = kCorrelated * std::sqrt(kBase_px * kBase_px + h * h);
+    const double sigma = kCorrelated * edge_scatter_px(box);
     std::array<double, 4> out{kSideways * sigma, kSideways * sigma, sigma, sigma};
     for (int other = 0; other < list.items.size(); ++other) {
         const Box2d& b = list.items[other].box;
@@ -52,16 +69,17 @@ std::array<double, 4> edge_sigmas(const DetectionList& list, int item, int width
             out[kBottom] *= kHidden;
         }
     }
-    if (box.left < kBorder_px) {
+    const Box2d drawn = drawn_to_border(box, width, height);
+    if (drawn.left <= 0.0) {
         out[kLeft] = 0.0;
     }
-    if (box.right > width - 1 - kBorder_px) {
+    if (drawn.right >= width - 1) {
         out[kRight] = 0.0;
     }
-    if (box.top < kBorder_px) {
+    if (drawn.top <= 0.0) {
         out[kTop] = 0.0;
     }
-    if (box.bottom > height - 1 - kBorder_px) {
+    if (drawn.bottom >= height - 1) {
         out[kBottom] = 0.0;
     }
     return out;
@@ -184,6 +202,7 @@ void TrackerCore::take_list(const DetectionList& list, std::uint32_t frame) {
         track.list_seen = track.list_seen || frame == frame_;
         if (item >= 0) {
             attach(track, candidates_[t].index, usable_, item, frame);
+            learn_ground(track, candidates_[t].slot, candidates_[t].index);
         } else {
             update_miss(track, detection_probability(track, boxes_[t].box.bottom - boxes_[t].box.top));
         }
@@ -200,13 +219,13 @@ void TrackerCore::take_list(const DetectionList& list, std::uint32_t frame) {
 
 Box2d TrackerCore::expected_box(const Track& track, int index) const {
     const ObjectFrame& frame = track.window.frames[index];
-    const DetectionView view{calibration_.detection, {frame.T_c_l.R, frame.T_c_l.t + t_d_c_}};
+    const DetectionView view{calibration_.detection, {frame.T_c_l.R, frame.T_c_l.t + t_d_c_}, calibration_.width};
     const Pose T_l_o{rot_z(box_heading(frame.state, track.window.object_class, view)), frame.state.p};
     Box2d box = track.box;
     Box2d projected;
     if (track.hits >= kYoungHits || track.features > 0) {
-        if (projected_box(view.camera, view.T_d_l * T_l_o, track.window.size_m, projected) == Status::kOk &&
-            clip_box(projected, calibration_.width, calibration_.height, projected)) {
+        if (seen_box(view.camera, calibration_.width, calibration_.height, view.T_d_l * T_l_o, track.window.size_m,
+                     projected) == Status::kOk) {
             return projected;
         }
     }
@@ -236,7 +255,7 @@ void TrackerCore::attach(Track& track, int index, const DetectionList& list, int
     }
     // A young track's motion is not known: its predicted position follows the box sideways, so that its features are
     // looked for where the object is.
-    const DetectionView view{calibration_.detection, {f.T_c_l.R, f.T_c_l.t + t_d_c_}};
+    const DetectionView view{calibration_.detection, {f.T_c_l.R, f.T_c_l.t + t_d_c_}, calibration_.width};
     const Vec3 p_d = view.T_d_l * f.state.p;
     if (!(p_d(2) > 1.0)) {
         return;
@@ -249,6 +268,18 @@ void TrackerCore::attach(Track& track, int index, const DetectionList& list, int
     }
     const Vec3 shift_d(ray(0) * p_d(2) - p_d(0), 0.0, 0.0);
     f.state.p += view.T_d_l.R.transpose() * shift_d;
+}
+
+void TrackerCore::learn_ground(const Track& track, int slot, int index) {
+    const ObjectFrame& f = track.window.frames[index];
+    const ClassPrior& prior = class_prior(track.window.object_class);
+    const DetectionView view{calibration_.detection, {f.T_c_l.R, f.T_c_l.t + t_d_c_}, calibration_.width};
+    const Pose T_l_o{rot_z(box_heading(f.state, track.window.object_class, view)), f.state.p};
+    StandPoint point;
+    if (stand_point(view.camera, f.box.box, f.box.sigma_px, view.T_d_l * T_l_o, prior.size_m, prior.size_sigma_m(2),
+                    point) == Status::kOk) {
+        ground_.add(slot, f.T_c_l, view.T_d_l.inverse() * point.p_d, point.sigma_m);
+    }
 }
 
 void TrackerCore::watch_heading(Track& track, int index, const Detection& detection) {
@@ -291,7 +322,7 @@ void TrackerCore::watch_heading(Track& track, int index, const Detection& detect
 bool TrackerCore::infer(const Detection& detection, const Pose& T_c_l, const Vec3& size_m, const double* theta,
                         ObjectState& x) const {
     BoxInferenceInput in;
-    in.box = detection.box;
+    in.box = drawn_to_border(detection.box, calibration_.width, calibration_.height);
     in.viewpoint = detection.viewpoint;
     in.object_class = detection.object_class;
     in.size_m = size_m;
@@ -330,6 +361,7 @@ void TrackerCore::fill_window(ObjectWindow& window, const ObjectState& first, st
         new_frame_.time_us = next_us;
         new_frame_.state = state;
         new_frame_.box.valid = false;
+        new_frame_.ground = ground_.plane(-1);
         for (FeatureObservation& o : new_frame_.features) {
             o.valid = false;
         }
@@ -378,6 +410,7 @@ void TrackerCore::start_track(const DetectionList& list, int item, std::uint32_t
     box.viewpoint = detection.viewpoint;
     box.score = detection.score;
     refresh_poses(*track);
+    learn_ground(*track, slot, 0);
 }
 
 }  // namespace semtrack

@@ -55,6 +55,7 @@ void TrackerCore::solve_objects() {
             continue;
         }
         refresh_poses(track);
+        track.window.newest().ground = ground_.plane(s);
         begin(Stage::kObjects);
         solve_report_ = objects_.solve(track.window, system_, step_);
         if (!solve_report_.solved) {

@@ -6,6 +6,10 @@
 
 namespace semtrack {
 
+namespace {
+constexpr double kParallel_m = 0.01;  // a side along the border's plane has no point in it
+}
+
 double box_heading(const ObjectState& x, ObjectClass object_class, const DetectionView& view) {
     if (class_prior(object_class).has_heading) {
         return x.theta;
@@ -15,7 +19,7 @@ double box_heading(const ObjectState& x, ObjectClass object_class, const Detecti
 }
 
 void box_edge_residuals(const ObjectState& x, ObjectClass object_class, const Vec3& size_m, const DetectionView& view,
-                        const EdgeVertices& vertices, const BoxMeasurement& box, bool derivatives, EdgeResiduals& out) {
+                        const BoxOutline& outline, const BoxMeasurement& box, bool derivatives, EdgeResiduals& out) {
     const bool has_heading = class_prior(object_class).has_heading;
     const Mat3 R_l_o = rot_z(box_heading(x, object_class, view));
     const Mat3 R_d_o = view.T_d_l.R * R_l_o;
@@ -24,9 +28,12 @@ void box_edge_residuals(const ObjectState& x, ObjectClass object_class, const Ve
         EdgeResidual& edge = out[static_cast<std::size_t>(e)];
         edge = EdgeResidual{};
         const double sigma = box.sigma_px[static_cast<std::size_t>(e)];
-        const Vec3 corner_o = vertices[static_cast<std::size_t>(e)].scaled(size_m);
-        const Vec3 x_d = centre_d + R_d_o * corner_o;
-        if (!(sigma > 0.0) || !(x_d(2) >= kMinDepth_m)) {
+        const OutlinePoint& point = outline[static_cast<std::size_t>(e)];
+        const Vec3 x_a = centre_d + R_d_o * point.a.scaled(size_m);
+        const Vec3 x_b = centre_d + R_d_o * point.b.scaled(size_m);
+        const double share = point.cut ? point.share_of_b(x_a, x_b) : 0.0;
+        const Vec3 x_d = x_a + share * (x_b - x_a);
+        if (!(sigma > 0.0) || !point.valid || !(x_d(2) >= kMinDepth_m)) {
             continue;
         }
         const bool column = e == kLeft || e == kRight;
@@ -42,13 +49,22 @@ void box_edge_residuals(const ObjectState& x, ObjectClass object_class, const Ve
         Vec3 g = Vec3::Zero();  // derivative by x_d
         g(axis) = focal / x_d(2);
         g(2) = -focal * slope / x_d(2);
+        if (point.cut) {
+            // The point slides along the side a-b as the box moves, so that it stays in the border's plane n . x = 0.
+            const Vec3 n(1.0, 0.0, -point.slope);
+            const Vec3 side = x_b - x_a;
+            const double across = n.dot(side);
+            if (across > kParallel_m || across < -kParallel_m) {
+                g -= (g.dot(side) / across) * n;
+            }
+        }
+        const Vec3 corner_o = (1.0 - share) * point.a.scaled(size_m) + share * point.b.scaled(size_m);
         edge.J_state.head<3>() = view.T_d_l.R.transpose() * g;
         const Vec3 g_o = R_d_o.transpose() * g;
         if (has_heading) {
             edge.J_state(3) = g_o(1) * corner_o(0) - g_o(0) * corner_o(1);
         }
-        const BoxVertex& c = vertices[static_cast<std::size_t>(e)];
-        edge.J_size = Vec3(0.5 * c.x * g_o(0), 0.5 * c.y * g_o(1), 0.5 * c.z * g_o(2));
+        edge.J_size = corner_o.cwiseQuotient(size_m).cwiseProduct(g_o);
     }
 }
 

@@ -7,7 +7,7 @@
 
 #include <array>
 
-#include "model/box_geometry.hpp"
+#include "model/box_outline.hpp"
 #include "model/object_window.hpp"
 
 namespace semtrack {
@@ -16,6 +16,7 @@ namespace semtrack {
 struct DetectionView {
     PinholeCamera camera{};
     Pose T_d_l{};
+    int width{0};  ///< of the image, px
 };
 
 struct EdgeResidual {
@@ -29,10 +30,10 @@ using EdgeResiduals = std::array<EdgeResidual, kBoxEdges>;
 /// Heading that the box has for projections. A pedestrian has none: his box faces the camera.
 [[nodiscard]] double box_heading(const ObjectState& x, ObjectClass object_class, const DetectionView& view);
 
-/// Edges with sigma 0, or whose vertex is behind the camera, stay invalid. derivatives: fill J too. A class without
+/// Edges with sigma 0, without a point in the outline, or whose point is behind the camera, stay invalid. derivatives: fill J too. A class without
 /// heading has no derivative by theta. Constant cost, no allocation.
 void box_edge_residuals(const ObjectState& x, ObjectClass object_class, const Vec3& size_m, const DetectionView& view,
-                        const EdgeVertices& vertices, const BoxMeasurement& box, bool derivatives, EdgeResiduals& out);
+                        const BoxOutline& outline, const BoxMeasurement& box, bool derivatives, EdgeResiduals& out);
 
 }  // namespace semtrack
 

@@ -5,18 +5,24 @@
 namespace semtrack {
 
 namespace {
-constexpr double kRoadSigma_m = 0.10;         // crown, kerbs, tyres, label noise
-constexpr double kRoadSigmaPerMetre = 0.008;  // a road leaves a plane by 0.5 degrees
+constexpr double kRoadSigma_m = 0.12;  // crown, kerbs, tyres
+constexpr double kRoadSigmaPerMetre = 0.004;
 }  // namespace
 
-GroundResidual ground_residual(const ObjectState& x, double height_m, const Pose& T_c_l, const GroundPrior& prior) {
+GroundResidual ground_residual(const ObjectState& x, double height_m, const Pose& T_c_l, const GroundPlane& plane) {
     const Vec3 camera_l = -(T_c_l.R.transpose() * T_c_l.t);
-    const double dx = x.p(0) - camera_l(0);
-    const double dy = x.p(1) - camera_l(1);
-    const double far = kRoadSigmaPerMetre * std::sqrt(dx * dx + dy * dy);
-    const double h = prior.camera_height_sigma_m;
-    const double weight = 1.0 / std::sqrt(kRoadSigma_m * kRoadSigma_m + far * far + h * h);
-    return {weight * (x.p(2) - 0.5 * height_m - camera_l(2) + prior.camera_height_m), weight, -0.5 * weight};
+    const Vec3 a = ground_row(T_c_l, x.p);
+    const double distance = std::sqrt(a(1) * a(1) + a(2) * a(2));
+    const double road = kRoadSigma_m + kRoadSigmaPerMetre * distance;
+    const double weight = 1.0 / std::sqrt(road * road + a.dot(plane.covariance * a));
+    const Vec3 theta(plane.height_m, plane.slope_forward, plane.slope_left);
+    const Vec3 ahead = ahead_of(T_c_l);
+    GroundResidual out;
+    out.r = weight * (x.p(2) - 0.5 * height_m - camera_l(2) - a.dot(theta));
+    out.J_p = weight * Vec3(-(plane.slope_forward * ahead(0) - plane.slope_left * ahead(1)),
+                            -(plane.slope_forward * ahead(1) + plane.slope_left * ahead(0)), 1.0);
+    out.J_height = -0.5 * weight;
+    return out;
 }
 
 }  // namespace semtrack

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "estimate/factor/size_prior.hpp"
+#include "estimate/object/object_starts.hpp"
 #include "estimate/object/object_weights.hpp"
 #include "math/camera.hpp"
 #include "math/so3.hpp"
@@ -19,10 +20,9 @@ namespace {
 constexpr int kObjectIterations = 5;
 constexpr double kMaxPlausibleSpeed = 90.0;  // m/s
 constexpr double kMinStereoDisparity_px = 2.0;
-constexpr double kWrongViewCost = 2.0;  // of a frame whose faces are others than the detector says
-constexpr double kNextViewCost = 0.5;   // ... by one class
-constexpr double kMaxTurn_rad = 1.2;    // to a twin
 constexpr double kDoubtfulViews = 2.0;  // over the window
+constexpr int kTrialsBlind = 3;
+constexpr int kYoungFrames = 9;         // of the window
 constexpr double kDoubtfulSize2 = 6.0;  // |r|^2 of the size prior, three degrees of freedom
 
 bool finite_state(const ObjectState& x) {
@@ -30,52 +30,11 @@ bool finite_state(const ObjectState& x) {
            std::isfinite(x.v) && std::isfinite(x.delta) && std::fabs(x.v) < kMaxPlausibleSpeed;
 }
 
-/// Wrong faces over the window; an adjacent class is often the detector's error. Bounded, so that a few wrong classes
-/// do not hold a heading that the edges contradict.
-double view_cost(const ObjectWindow& window, const ObjectVariables& x) {
-    double cost = 0.0;
-    for (int k = 0; k < window.frames.size(); ++k) {
-        const ObjectFrame& frame = window.frames[k];
-        if (!frame.box.valid || frame.box.viewpoint.horizontal < 0) {
-            continue;
-        }
-        const ObjectState& state = x.state[static_cast<std::size_t>(k)];
-        const int seen = visible_faces(frame.T_c_l * state.T_l_o(), x.size_m).horizontal;
-        const int apart = seen > frame.box.viewpoint.horizontal ? seen - frame.box.viewpoint.horizontal
-                                                                : frame.box.viewpoint.horizontal - seen;
-        const int steps = apart > 4 ? 8 - apart : apart;
-        cost += steps == 0 ? 0.0 : steps == 1 ? kNextViewCost : kWrongViewCost;
-    }
-    return cost;
-}
-
-/// The turn to a second heading whose box is nearly as wide in the image: mirrored about the line of sight, or, with
-/// the same two faces, on the other side of the heading at which the box is widest.
-double turn_to_twin(const ObjectFrame& frame, const Vec3& size_m, bool mirrored) {
-    const Vec3 camera_l = frame.T_c_l.inverse().t;
-    const Vec3 ray = frame.state.p - camera_l;
-    const double off = wrap_angle(frame.state.theta - atan2_rad(ray(1), ray(0)));
-    if (mirrored) {
-        return -2.0 * off;
-    }
-    // Within its quarter: widest where tan = length / width.
-    const double quarter = off >= 0.5 * kPi    ? off - 0.5 * kPi
-                           : off >= 0.0        ? off
-                           : off >= -0.5 * kPi ? off + 0.5 * kPi
-                                               : off + kPi;
-    const bool across = (off >= 0.5 * kPi) || (off < 0.0 && off >= -0.5 * kPi);
-    const double widest = across ? atan2_rad(size_m(1), size_m(0)) : atan2_rad(size_m(0), size_m(1));
-    return 2.0 * (widest - quarter);
-}
-
 }  // namespace
 
 void ObjectEstimator::init(const Calibration& calibration, const Config& config) {
     calibration_ = calibration;
     options_.cues = config.cues;
-    options_.ground.valid = config.cues.ground;
-    options_.ground.camera_height_m = config.camera_height_m;
-    options_.ground.camera_height_sigma_m = config.camera_height_sigma_m;
 }
 
 void ObjectEstimator::run(ObjectWindow& window, bool standing, NormalEquations& system, SolverStep& step) {
@@ -108,7 +67,7 @@ ObjectSolveReport ObjectEstimator::solve(ObjectWindow& window, NormalEquations& 
             lm_ = moving;
         }
     }
-    try_other_heading(window, standing, system, step);
+    try_other_starts(window, standing, system, step);
     report.reason = lm_.reason;
     report.cost = lm_.final_cost;
     if (lm_.reason == LmReason::kInvalidCost || lm_.reason == LmReason::kNotObservable ||
@@ -142,43 +101,50 @@ ObjectSolveReport ObjectEstimator::solve(ObjectWindow& window, NormalEquations& 
     return report;
 }
 
-// Five iterations do not leave the wrong one of two headings; by the time the features contradict it, the size has
-// given way. In doubt one of the twins is tried a frame, and the cheaper one stays.
-void ObjectEstimator::try_other_heading(const ObjectWindow& window, bool standing, NormalEquations& system,
-                                        SolverStep& step) {
-    chosen_ = problem_.variables();
-    const double views = view_cost(window, chosen_);
-    const bool young = window.frames.size() <= kObjectDenseFrames;
-    const double size2 = size_prior_cost(size_prior(window.object_class), chosen_.size_m);
-    if (!standing || !class_prior(window.object_class).has_heading ||
-        !(young || size2 > kDoubtfulSize2 || views > kDoubtfulViews)) {
+// Five iterations do not leave the wrong one of two headings, or the wrong depth of an object that entered half
+// outside the image; by the time the features contradict it, the size has given way. In doubt other starts are tried,
+// another one each frame, and the cheapest solution stays. Without landmarks a start costs little: three a frame.
+void ObjectEstimator::try_other_starts(const ObjectWindow& window, bool standing, NormalEquations& system,
+                                       SolverStep& step) {
+    if (!class_prior(window.object_class).has_heading) {
         return;
     }
+    const ObjectVariables start = problem_.variables();
+    const bool blind = problem_.landmarks() == 0;
+    const bool young = window.frames.size() <= kYoungFrames;
+    const double size2 = size_prior_cost(size_prior(window.object_class), start.size_m);
+    const bool doubtful = young || size2 > kDoubtfulSize2 || view_cost(window, start) > kDoubtfulViews;
+    if (!doubtful && !blind) {
+        return;
+    }
+    const bool viewed = window.newest().box.valid && window.newest().box.viewpoint.horizontal >= 0;
+    const int options = 2 + (viewed ? kFreshStarts : kFreshStartsBlind);
+    const int trials = blind ? kTrialsBlind : 1;
+    for (int t = 0; t < trials; ++t) {
+        const int option = static_cast<int>((window.newest().frame * static_cast<std::uint32_t>(trials) +
+                                             static_cast<std::uint32_t>(t)) %
+                                            static_cast<std::uint32_t>(options));
+        other_ = start;
+        const bool made = option < 2 ? twin_start(window, option == 1, other_)
+                                     : fresh_start(window, calibration_, option - 2, other_);
+        if (made) {
+            keep_better(window, standing, system, step);
+        }
+    }
+}
+
+void ObjectEstimator::keep_better(const ObjectWindow& window, bool standing, NormalEquations& system,
+                                  SolverStep& step) {
+    chosen_ = problem_.variables();
     const LmReport chosen = lm_;
-    const int last = window.frames.size() - 1;
-    ObjectFrame now;
-    now.T_c_l = window.newest().T_c_l;
-    now.state = chosen_.state[static_cast<std::size_t>(last)];
-    const double turn = turn_to_twin(now, chosen_.size_m, window.newest().frame % 2U == 0U);
-    if (std::fabs(turn) > kMaxTurn_rad) {
-        return;  // other faces: the detector's class would have told
-    }
-    moving_ = chosen_;
-    const Mat3 R_back = rot_z(-turn);
-    for (int k = 0; k <= last; ++k) {
-        ObjectState& x = moving_.state[static_cast<std::size_t>(k)];
-        x.theta = wrap_angle(x.theta + turn);
-    }
-    for (Vec3& f : moving_.f_o) {
-        f = R_back * f;  // stays where it is in the world
-    }
+    const double cost = chosen.final_cost + view_cost(window, chosen_);
     options_.standing = standing;
     problem_.begin(window, calibration_, options_);
-    problem_.set(moving_);
+    problem_.set(other_);
     LmOptions lm;
     lm.iterations = kObjectIterations;
     lm_ = levenberg_marquardt(problem_, lm, system, step);
-    if (!(lm_.final_cost + view_cost(window, problem_.variables()) < chosen.final_cost + views)) {
+    if (!(lm_.final_cost + view_cost(window, problem_.variables()) < cost)) {
         problem_.set(chosen_);
         lm_ = chosen;
     }

@@ -29,7 +29,8 @@ public:
 
 private:
     void run(ObjectWindow& window, bool standing, NormalEquations& system, SolverStep& step);
-    void try_other_heading(const ObjectWindow& window, bool standing, NormalEquations& system, SolverStep& step);
+    void try_other_starts(const ObjectWindow& window, bool standing, NormalEquations& system, SolverStep& step);
+    void keep_better(const ObjectWindow& window, bool standing, NormalEquations& system, SolverStep& step);
     void cull(const ObjectWindow& window, ObjectSolveReport& report) const;
     void give_birth(ObjectWindow& window) const;
 
@@ -38,7 +39,8 @@ private:
     ObjectProblem problem_{};
     LmReport lm_{};
     ObjectVariables moving_{};  // result of the moving hypothesis, while standing is tried
-    ObjectVariables chosen_{};  // the better hypothesis, while another heading is tried
+    ObjectVariables chosen_{};  // the best so far, while another start is tried
+    ObjectVariables other_{};   // that start
 };
 
 }  // namespace semtrack

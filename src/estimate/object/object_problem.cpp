@@ -52,7 +52,7 @@ void ObjectProblem::begin(const ObjectWindow& window, const Calibration& calibra
         const auto i = static_cast<std::size_t>(k);
         current_.state[i] = window.frames[k].state;
         const Pose& T_c_l = window.frames[k].T_c_l;
-        views_[i] = {calibration.detection, {T_c_l.R, T_c_l.t + t_d_c}};
+        views_[i] = {calibration.detection, {T_c_l.R, T_c_l.t + t_d_c}, calibration.width};
     }
     current_.size_m = window.size_m;
     points_ = 0;
@@ -71,25 +71,18 @@ void ObjectProblem::begin(const ObjectWindow& window, const Calibration& calibra
             slot_of_point_[static_cast<std::size_t>(points_++)] = static_cast<std::int16_t>(s);
         }
     }
-    choose_vertices();
+    choose_outlines();
 }
 
-void ObjectProblem::choose_vertices() {
+void ObjectProblem::choose_outlines() {
     for (int k = 0; k < frames_; ++k) {
         const auto i = static_cast<std::size_t>(k);
-        vertices_known_[i] = false;
         if (!window_->frames[k].box.valid) {
             continue;
         }
         const ObjectState& x = current_.state[i];
         const Pose T_l_o{rot_z(box_heading(x, window_->object_class, views_[i])), x.p};
-        const Pose T_d_o = views_[i].T_d_l * T_l_o;
-        vertices_known_[i] = extreme_vertices(views_[i].camera, T_d_o, current_.size_m, vertices_[i]) == Status::kOk;
-        const Viewpoint& view = window_->frames[k].box.viewpoint;
-        if (!vertices_known_[i] && view.horizontal >= 0 && view.vertical >= 0) {
-            vertices_[i] = edge_vertices(view);  // beside the camera: the visible corners are still the table's
-            vertices_known_[i] = true;
-        }
+        outlines_[i] = box_outline(views_[i].camera, views_[i].width, views_[i].T_d_l * T_l_o, current_.size_m);
     }
 }
 
@@ -98,7 +91,7 @@ Mat3 ObjectProblem::feature_rotation(const ObjectState& x) const {
 }
 
 double ObjectProblem::linearise(NormalEquations& system) {
-    choose_vertices();
+    choose_outlines();
     return evaluate(current_, &system);
 }
 
@@ -152,10 +145,10 @@ double ObjectProblem::evaluate(const ObjectVariables& x, NormalEquations* system
 
 double ObjectProblem::add_boxes(const ObjectVariables& x, int k, NormalEquations* system) {
     const auto i = static_cast<std::size_t>(k);
-    if (!vertices_known_[i]) {
+    if (!window_->frames[k].box.valid) {
         return 0.0;
     }
-    box_edge_residuals(x.state[i], window_->object_class, x.size_m, views_[i], vertices_[i], window_->frames[k].box,
+    box_edge_residuals(x.state[i], window_->object_class, x.size_m, views_[i], outlines_[i], window_->frames[k].box,
                        system != nullptr, edges_);
     double cost = 0.0;
     for (const EdgeResidual& e : edges_) {
@@ -176,18 +169,19 @@ double ObjectProblem::add_boxes(const ObjectVariables& x, int k, NormalEquations
 }
 
 double ObjectProblem::add_ground(const ObjectVariables& x, int k, NormalEquations* system) {
-    if (!options_.cues.ground || !options_.ground.valid) {
+    const ObjectFrame& frame = window_->frames[k];
+    if (!options_.cues.ground || !frame.ground.valid) {
         return 0.0;
     }
     const auto i = static_cast<std::size_t>(k);
-    const GroundResidual g = ground_residual(x.state[i], x.size_m(2), window_->frames[k].T_c_l, options_.ground);
+    const GroundResidual g = ground_residual(x.state[i], x.size_m(2), frame.T_c_l, frame.ground);
     // Errors of the road under one object hardly change within a window: all frames together count once.
     const double share = 1.0 / static_cast<double>(frames_);
     const Robust rho = huber(g.r * g.r, kEdgeHuber);
     if (system != nullptr) {
         const double w = share * rho.weight;
         Vec6 J = Vec6::Zero();
-        J(2) = g.J_z;
+        J.head<3>() = g.J_p;
         const Vec3 J_size(0.0, 0.0, g.J_height);
         system->add_frame(k, w * (J * J.transpose()), w * g.r * J);
         system->add_shared(w * (J_size * J_size.transpose()), w * g.r * J_size);

@@ -26,7 +26,6 @@ struct ObjectVariables {
 struct ObjectProblemOptions {
     Cues cues{};
     bool standing{false};
-    GroundPrior ground{};
 };
 
 class ObjectProblem {
@@ -54,7 +53,7 @@ private:
     double add_motion(const ObjectVariables& x, int k, NormalEquations* system);
     double add_priors(const ObjectVariables& x, NormalEquations* system);
     double add_features(const ObjectVariables& x, NormalEquations* system);
-    void choose_vertices();
+    void choose_outlines();
     [[nodiscard]] Mat3 feature_rotation(const ObjectState& x) const;
 
     const ObjectWindow* window_{nullptr};
@@ -66,8 +65,7 @@ private:
     int frames_{0};
     int points_{0};
     std::array<std::int16_t, kMaxObjectFeatures> slot_of_point_{};
-    std::array<bool, kObjectWindow> vertices_known_{};
-    std::array<EdgeVertices, kObjectWindow> vertices_{};
+    std::array<BoxOutline, kObjectWindow> outlines_{};
     std::array<DetectionView, kObjectWindow> views_{};
     ObjectVariables current_{};
     ObjectVariables candidate_{};

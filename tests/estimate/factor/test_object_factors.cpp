@@ -194,8 +194,7 @@ TEST(SizePrior, LongAndWideTogetherIsLikelierThanLongAndNarrow) {
 }
 
 TEST(Ground, DerivativesMatchCentralDifferencesAndSigmaGrowsWithDistance) {
-    GroundPrior prior;
-    prior.valid = true;
+    const GroundPlane prior{true, 1.65, 0.02, -0.01, Mat3(Vec3(0.001, 1e-4, 1e-3).asDiagonal())};
     const DetectionView view = view_from(Vec3(2.0, -1.0, 0.3), 0.1);
     double last_weight = 1e9;
     for (const double x : {5.0, 20.0, 80.0}) {
@@ -207,19 +206,18 @@ TEST(Ground, DerivativesMatchCentralDifferencesAndSigmaGrowsWithDistance) {
         down.p(2) -= 1e-6;
         EXPECT_NEAR(
             (ground_residual(up, 1.5, view.T_d_l, prior).r - ground_residual(down, 1.5, view.T_d_l, prior).r) / 2e-6,
-            g.J_z, 1e-6);
+            g.J_p(2), 1e-6);
         EXPECT_NEAR((ground_residual(state, 1.5 + 1e-6, view.T_d_l, prior).r -
                      ground_residual(state, 1.5 - 1e-6, view.T_d_l, prior).r) /
                         2e-6,
                     g.J_height, 1e-6);
-        EXPECT_LT(g.J_z, last_weight);
-        last_weight = g.J_z;
+        EXPECT_LT(g.J_p(2), last_weight);
+        last_weight = g.J_p(2);
     }
 }
 
 TEST(Ground, BoxThatStandsOnTheRoadHasNoResidual) {
-    GroundPrior prior;
-    prior.valid = true;
+    const GroundPlane prior{true, 1.65, 0.0, 0.0, Mat3(Mat3::Zero())};
     const DetectionView view = view_from(Vec3(0.0, 0.0, 0.4), 0.0);
     const ObjectState state{Vec3(20.0, 0.0, 0.4 - 1.65 + 0.75), 0.0, 0.0, 0.0};
     EXPECT_NEAR(ground_residual(state, 1.5, view.T_d_l, prior).r, 0.0, 1e-9);

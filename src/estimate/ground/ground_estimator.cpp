@@ -1,0 +1,82 @@
+#include "estimate/ground/ground_estimator.hpp"
+
+#include <cmath>
+
+#include "math/robust.hpp"
+
+namespace semtrack {
+
+namespace {
+
+// Roads keep their slope against the vehicle within 0.7 degrees (pitch of a car that brakes included), their crown and
+// the vehicle's roll within 1.7.
+constexpr double kSlopeForwardSigma = 0.012;
+constexpr double kSlopeLeftSigma = 0.03;
+constexpr double kMemory_s = 0.4;
+constexpr double kHuber = 2.0;  // sigmas: a car on a drive-way, or of another size than its class
+
+}  // namespace
+
+void GroundEstimator::init(const Config& config) {
+    height_m_ = config.camera_height_m;
+    const Vec3 sigma(config.camera_height_sigma_m, kSlopeForwardSigma, kSlopeLeftSigma);
+    prior_ = Evidence{};
+    prior_.information = sigma.cwiseProduct(sigma).cwiseInverse().asDiagonal();
+    all_ = Evidence{};
+    of_slot_.fill(Evidence{});
+}
+
+void GroundEstimator::fade(double dt_s) {
+    const double keep = 1.0 / (1.0 + (dt_s > 0.0 ? dt_s : 0.0) / kMemory_s);
+    all_.information *= keep;
+    all_.vector *= keep;
+    for (Evidence& e : of_slot_) {
+        e.information *= keep;
+        e.vector *= keep;
+    }
+}
+
+void GroundEstimator::add(int slot, const Pose& T_c_l, const Vec3& x_l, double sigma_m) {
+    const Vec3 camera_l = -(T_c_l.R.transpose() * T_c_l.t);
+    const Vec3 a = ground_row(T_c_l, x_l);
+    const GroundPlane others = plane(slot);
+    const Vec3 theta(others.height_m, others.slope_forward, others.slope_left);
+    const double height = x_l(2) - camera_l(2);
+    const double r = height - a.dot(theta);
+    const double variance = sigma_m * sigma_m + a.dot(others.covariance * a);
+    if (!(variance > 0.0) || !std::isfinite(r)) {
+        return;
+    }
+    const double w = huber(r * r / variance, kHuber).weight / (sigma_m * sigma_m);
+    Evidence& e = slot >= 0 && slot < kMaxObjects ? of_slot_[static_cast<std::size_t>(slot)] : all_;
+    e.information += w * (a * a.transpose());
+    e.vector += (w * (height + height_m_)) * a;
+}
+
+void GroundEstimator::release(int slot) {
+    Evidence& e = of_slot_[static_cast<std::size_t>(slot)];
+    all_.information += e.information;
+    all_.vector += e.vector;
+    e = Evidence{};
+}
+
+GroundPlane GroundEstimator::plane(int without_slot) const {
+    Mat3 information = prior_.information + all_.information;
+    Vec3 vector = all_.vector;
+    for (int s = 0; s < kMaxObjects; ++s) {
+        if (s != without_slot) {
+            information += of_slot_[static_cast<std::size_t>(s)].information;
+            vector += of_slot_[static_cast<std::size_t>(s)].vector;
+        }
+    }
+    GroundPlane out;
+    out.valid = true;
+    out.covariance = information.inverse();
+    const Vec3 change = out.covariance * vector;
+    out.height_m = height_m_ + change(0);
+    out.slope_forward = change(1);
+    out.slope_left = change(2);
+    return out;
+}
+
+}  // namespace semtrack

@@ -1,0 +1,189 @@
+#include "estimate/object/object_starts.hpp"
+
+#include <cmath>
+
+#include "math/so3.hpp"
+#include "math/trig.hpp"
+#include "model/box_geometry.hpp"
+#include "model/class_prior.hpp"
+#include "model/stand_point.hpp"
+
+namespace semtrack {
+
+namespace {
+
+constexpr double kWrongViewCost = 2.0;  // of a frame whose faces are others than the detector says
+constexpr double kNextViewCost = 0.5;   // ... by one class
+constexpr double kMaxTurn_rad = 1.2;    // to a twin
+constexpr double kBesideMiddle_rad = 0.35;  // of a class of two faces, which spans 1.4 rad
+constexpr double kPathSpeed = 1.5;          // m/s: slower ones have no direction
+constexpr double kShortestPath_s = 0.25;
+
+/// The straight path of the middles of the bottom faces, by least squares in time; nearer boxes count more.
+struct Path {
+    double weight{0};
+    double t{0};
+    double tt{0};
+    Vec3 p{Vec3::Zero()};
+    Vec3 tp{Vec3::Zero()};
+    double first_s{0};
+    double last_s{0};
+
+    void add(double t_s, const Vec3& p_l, double w) {
+        first_s = weight > 0.0 ? first_s : t_s;
+        last_s = t_s;
+        weight += w;
+        t += w * t_s;
+        tt += w * t_s * t_s;
+        p += w * p_l;
+        tp += (w * t_s) * p_l;
+    }
+    [[nodiscard]] Vec3 velocity() const {
+        const double det = weight * tt - t * t;
+        return last_s - first_s < kShortestPath_s || !(det > 0.0) ? Vec3(Vec3::Zero())
+                                                                  : Vec3((weight * tp - t * p) / det);
+    }
+    [[nodiscard]] Vec3 at(double t_s, const Vec3& velocity) const { return (p + velocity * (weight * t_s - t)) / weight; }
+};
+
+DetectionView view_of(const ObjectFrame& frame, const Calibration& c) {
+    return {c.detection, {frame.T_c_l.R, frame.T_c_l.t + Vec3(c.t_d_c[0], c.t_d_c[1], c.t_d_c[2])}, c.width};
+}
+
+double seconds_to_newest(const ObjectWindow& window, int k) {
+    return 1e-6 * static_cast<double>(window.frames[k].time_us - window.newest().time_us);
+}
+
+Path path_of_boxes(const ObjectWindow& window, const Calibration& calibration, double theta, const ObjectVariables& x) {
+    const ClassPrior& prior = class_prior(window.object_class);
+    Path path;
+    for (int k = 0; k < window.frames.size(); ++k) {
+        const ObjectFrame& frame = window.frames[k];
+        if (!frame.box.valid) {
+            continue;
+        }
+        const DetectionView view = view_of(frame, calibration);
+        Pose T_l_o{rot_z(theta), x.state[static_cast<std::size_t>(k)].p};
+        StandPoint point;
+        bool stands = true;
+        for (int pass = 0; pass < 2 && stands; ++pass) {  // the second one with the corners of the first one's pose
+            stands = stand_point(view.camera, frame.box.box, frame.box.sigma_px, view.T_d_l * T_l_o, prior.size_m,
+                                 prior.size_sigma_m(2), point) == Status::kOk;
+            T_l_o.t = view.T_d_l.inverse() * point.p_d + Vec3(0.0, 0.0, 0.5 * prior.size_m(2));
+        }
+        if (stands) {
+            path.add(seconds_to_newest(window, k), T_l_o.t, 1.0 / point.p_d.dot(point.p_d));
+        }
+    }
+    return path;
+}
+
+/// Observation angle of the middle of a class: rotation about z from the line of sight to the heading.
+double middle_of_class(int horizontal) {
+    // Class 6 is the rear: heading along the line of sight. Classes count up by 45 degrees of KITTI's alpha, which
+    // turns the other way.
+    return wrap_angle(static_cast<double>(6 - horizontal) * 0.25 * kPi);
+}
+
+}  // namespace
+
+double view_cost(const ObjectWindow& window, const ObjectVariables& x) {
+    double cost = 0.0;
+    for (int k = 0; k < window.frames.size(); ++k) {
+        const ObjectFrame& frame = window.frames[k];
+        if (!frame.box.valid || frame.box.viewpoint.horizontal < 0) {
+            continue;
+        }
+        const ObjectState& state = x.state[static_cast<std::size_t>(k)];
+        const int seen = visible_faces(frame.T_c_l * state.T_l_o(), x.size_m).horizontal;
+        const int apart = seen > frame.box.viewpoint.horizontal ? seen - frame.box.viewpoint.horizontal
+                                                                : frame.box.viewpoint.horizontal - seen;
+        const int steps = apart > 4 ? 8 - apart : apart;
+        cost += steps == 0 ? 0.0 : steps == 1 ? kNextViewCost : kWrongViewCost;
+    }
+    return cost;
+}
+
+bool twin_start(const ObjectWindow& window, bool mirrored, ObjectVariables& x) {
+    const int last = window.frames.size() - 1;
+    const ObjectState& state = x.state[static_cast<std::size_t>(last)];
+    const Vec3 ray = state.p - window.newest().T_c_l.inverse().t;
+    const double off = wrap_angle(state.theta - atan2_rad(ray(1), ray(0)));
+    double turn = -2.0 * off;
+    if (!mirrored) {
+        // Within its quarter: widest where tan = length / width.
+        const double quarter = off >= 0.5 * kPi    ? off - 0.5 * kPi
+                               : off >= 0.0        ? off
+                               : off >= -0.5 * kPi ? off + 0.5 * kPi
+                                                   : off + kPi;
+        const bool across = (off >= 0.5 * kPi) || (off < 0.0 && off >= -0.5 * kPi);
+        const double widest = across ? atan2_rad(x.size_m(1), x.size_m(0)) : atan2_rad(x.size_m(0), x.size_m(1));
+        turn = 2.0 * (widest - quarter);
+    }
+    if (std::fabs(turn) > kMaxTurn_rad) {
+        return false;
+    }
+    const Mat3 R_back = rot_z(-turn);
+    for (int k = 0; k <= last; ++k) {
+        ObjectState& s = x.state[static_cast<std::size_t>(k)];
+        s.theta = wrap_angle(s.theta + turn);
+    }
+    for (Vec3& f : x.f_o) {
+        f = R_back * f;
+    }
+    return true;
+}
+
+bool fresh_start(const ObjectWindow& window, const Calibration& calibration, int option, ObjectVariables& x) {
+    const int last = window.frames.size() - 1;
+    int seen = last;  // newest frame with a box
+    while (seen > 0 && !window.frames[seen].box.valid) {
+        --seen;
+    }
+    const ObjectFrame& frame = window.frames[seen];
+    const ObjectState before = x.state[static_cast<std::size_t>(last)];
+    const Vec3 ray = x.state[static_cast<std::size_t>(seen)].p - frame.T_c_l.inverse().t;
+    const double sight = atan2_rad(ray(1), ray(0));
+    const int view = frame.box.viewpoint.horizontal;
+    double theta = before.theta;
+    if (view < 0) {
+        theta = wrap_angle(sight + (static_cast<double>(option) + 0.5) * 0.25 * kPi);
+    } else if (option < 2) {
+        const double beside = view % 2 == 0 ? 0.0 : option == 0 ? kBesideMiddle_rad : -kBesideMiddle_rad;
+        theta = wrap_angle(sight + middle_of_class(view) + beside);
+    }
+    Path path = path_of_boxes(window, calibration, theta, x);
+    if (!(path.weight > 0.0)) {
+        return false;
+    }
+    Vec3 velocity = path.velocity();
+    if (view >= 0 && option == 2) {
+        const double speed = std::sqrt(velocity(0) * velocity(0) + velocity(1) * velocity(1));
+        if (!(speed > kPathSpeed)) {
+            return false;
+        }
+        theta = atan2_rad(velocity(1), velocity(0));
+        path = path_of_boxes(window, calibration, theta, x);
+        velocity = path.velocity();
+    }
+    const SinCos h = sin_cos(theta);
+    const double v = h.cos * velocity(0) + h.sin * velocity(1);
+    for (int k = 0; k <= last; ++k) {
+        ObjectState& s = x.state[static_cast<std::size_t>(k)];
+        s.p = path.at(seconds_to_newest(window, k), velocity);
+        s.theta = theta;
+        s.v = v;
+        s.delta = 0.0;
+    }
+    x.size_m = class_prior(window.object_class).size_m;
+    // Landmarks stay where they are in the world at the newest frame.
+    const ObjectState& now = x.state[static_cast<std::size_t>(last)];
+    const Mat3 R_now_before = rot_z(before.theta - theta);
+    const Vec3 shift = rot_z(-theta) * (before.p - now.p);
+    for (Vec3& f : x.f_o) {
+        f = R_now_before * f + shift;
+    }
+    return true;
+}
+
+}  // namespace semtrack

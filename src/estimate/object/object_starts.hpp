@@ -1,0 +1,31 @@
+// Other starts for an object's window. Gauss-Newton does not leave a wrong heading, nor the wrong depth of an object
+// that entered half outside the image; a start that owes nothing to the present solution does.
+#ifndef SEMTRACK_ESTIMATE_OBJECT_OBJECT_STARTS_HPP
+#define SEMTRACK_ESTIMATE_OBJECT_OBJECT_STARTS_HPP
+
+#include "estimate/object/object_problem.hpp"
+
+namespace semtrack {
+
+/// Wrong faces over the window; an adjacent class is often the detector's error. Bounded a frame (redescending), so
+/// that a few wrong classes do not hold a heading that the edges contradict.
+[[nodiscard]] double view_cost(const ObjectWindow& window, const ObjectVariables& x);
+
+/// The present solution x turned to its twin, the second heading whose box is nearly as wide in the image: mirrored
+/// about the line of sight, or, with the same two faces, on the other side of the heading at which the box is widest.
+/// Landmarks stay where they are in the world. false: the twin shows other faces, the detector's class would have told.
+[[nodiscard]] bool twin_start(const ObjectWindow& window, bool mirrored, ObjectVariables& x);
+
+inline constexpr int kFreshStarts = 3;       // with a viewpoint
+inline constexpr int kFreshStartsBlind = 8;  // without: around the circle
+
+/// From the boxes alone: where each whole box stands with the class's mean size and one heading, a straight path
+/// through them. option: with a viewpoint 0 and 1 are headings left and right of the class's middle, 2 the direction
+/// of the path; without it, eight headings around the circle. Landmarks are those of x, moved along.
+/// false: no whole box, or the path has no direction.
+[[nodiscard]] bool fresh_start(const ObjectWindow& window, const Calibration& calibration, int option,
+                               ObjectVariables& x);
+
+}  // namespace semtrack
+
+#endif

@@ -1,0 +1,48 @@
+#include "model/stand_point.hpp"
+
+#include <cmath>
+
+namespace semtrack {
+
+Status stand_point(const PinholeCamera& camera, const Box2d& box, const std::array<double, 4>& sigma_px,
+                   const Pose& T_d_o, const Vec3& size_m, double height_sigma_m, StandPoint& out) {
+    EdgeVertices vertices;
+    for (const double sigma : sigma_px) {
+        if (!(sigma > 0.0)) {
+            return Status::kNotObservable;
+        }
+    }
+    if (extreme_vertices(camera, T_d_o, size_m, vertices) != Status::kOk) {
+        return Status::kNotObservable;
+    }
+    const double u = 0.5 * (box.left + box.right);
+    const Vec3 sideways = 0.5 * (vertices[kLeft].scaled(size_m) + vertices[kRight].scaled(size_m));
+    const Vec3 planes[3] = {{1.0, 0.0, -(u - camera.cx) / camera.fx},
+                            {0.0, 1.0, -(box.top - camera.cy) / camera.fy},
+                            {0.0, 1.0, -(box.bottom - camera.cy) / camera.fy}};
+    const Vec3 corners[3] = {T_d_o.R * sideways, T_d_o.R * vertices[kTop].scaled(size_m),
+                             T_d_o.R * vertices[kBottom].scaled(size_m)};
+    Mat3 A;
+    Vec3 b;
+    for (int r = 0; r < 3; ++r) {
+        A.row(r) = planes[r].transpose();
+        b(r) = -planes[r].dot(corners[r]);
+    }
+    const Vec3 p = A.inverse() * b;
+    if (!(p(2) > kMinDepth_m) || !std::isfinite(p(0) + p(1) + p(2))) {
+        return Status::kNotObservable;
+    }
+    out.p_d = p - T_d_o.R.col(2) * (0.5 * size_m(2));
+    // The bottom lies on the ray of its edge: an error of depth, from the size and the height of the box, moves it
+    // along the ray.
+    const double rows = box.bottom - box.top;
+    const double size = height_sigma_m / size_m(2);
+    const double depth2 =
+        size * size + (sigma_px[kTop] * sigma_px[kTop] + sigma_px[kBottom] * sigma_px[kBottom]) / (rows * rows);
+    const double edge = p(2) * sigma_px[kBottom] / camera.fy;
+    const double drop = T_d_o.R.col(2).dot(out.p_d);
+    out.sigma_m = std::sqrt(drop * drop * depth2 + edge * edge);
+    return Status::kOk;
+}
+
+}  // namespace semtrack

@@ -53,7 +53,8 @@ double ranking_score(const Track& track) {
     const double overlap = expected_overlap(size(0), size(1), h.cos * ux + h.sin * uy, h.sin * ux - h.cos * uy,
                                             std::sqrt(variance > 0.0 ? variance : 0.0));
     const double n = static_cast<double>(track.hits);
-    double score = track.existence * track.detector_score * n / (n + kFramesForTrust) * overlap;
+    double score = track.existence * track.detector_score * n / (n + kFramesForTrust) * overlap *
+                   (1.0 - track.truncation);
     for (int k = 0; k < track.frames_unseen && k < kLongestCoast; ++k) {
         score *= kCoastingScore;
     }

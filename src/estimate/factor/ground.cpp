@@ -5,7 +5,7 @@
 namespace semtrack {
 
 namespace {
-constexpr double kRoadSigma_m = 0.12;  // crown, kerbs, tyres
+constexpr double kRoadSigma_m = 0.06;  // crown, kerbs, tyres
 constexpr double kRoadSigmaPerMetre = 0.004;
 }  // namespace
 

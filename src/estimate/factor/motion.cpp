@@ -51,15 +51,23 @@ void motion_residual(const ObjectState& before, const ObjectState& after, double
     const ObjectState next = stepped(before, dt_s, spec, derivatives, J_before);
     const double root_dt = std::sqrt(dt_s > kShortestStep_s ? dt_s : kShortestStep_s);
     const MotionNoise& n = spec.noise;
-    const double plane = 1.0 / (n.position * root_dt);
-    Vec6 weight;
-    weight << plane, plane, 1.0 / (n.height * root_dt), 1.0 / (n.heading * root_dt), 1.0 / (n.speed * root_dt),
-        1.0 / (n.steering * root_dt);
+    const double along = n.position * root_dt;
+    const double across = std::sqrt(along * along + spec.across_sigma_m * spec.across_sigma_m);
+    const double ux = spec.ego_direction(0);
+    const double uy = spec.ego_direction(1);
+    Mat6 W = Mat6::Zero();
+    W(0, 0) = ux / along;
+    W(0, 1) = uy / along;
+    W(1, 0) = -uy / across;
+    W(1, 1) = ux / across;
+    W(2, 2) = 1.0 / (n.height * root_dt);
+    W(3, 3) = 1.0 / (n.heading * root_dt);
+    W(4, 4) = 1.0 / (n.speed * root_dt);
+    W(5, 5) = 1.0 / (n.steering * root_dt);
     Vec6 d;
     d << after.p - next.p, wrap_angle(after.theta - next.theta), after.v - next.v, after.delta - next.delta;
-    r = weight.cwiseProduct(d);
+    r = W * d;
     if (derivatives) {
-        const Mat6 W = weight.asDiagonal();
         J_before = -(W * J_before);
         J_after = W;
     }

@@ -22,6 +22,10 @@ struct MotionModelSpec {
     bool standing{false};     ///< f(x) = x with v = 0
     double wheelbase_m{2.5};  ///< vehicles
     MotionNoise noise{};
+    /// Across the camera's own step (its level direction in L, length 1) positions are less sure by so much: an error
+    /// of the ego-motion's direction turns the path.
+    Vec3 ego_direction{Vec3(1.0, 0.0, 0.0)};
+    double across_sigma_m{0};
 };
 
 /// r [sigmas] of (p, theta, v, delta); J_before, J_after 6x6 by the states when derivatives is set.

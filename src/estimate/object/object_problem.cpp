@@ -13,10 +13,22 @@ namespace semtrack {
 
 namespace {
 
+constexpr double kShortestStep_m = 1e-3;
 constexpr double kMinSize_m = 0.2;  // a step must not turn a box inside out
 
 double time_step_s(const ObjectFrame& before, const ObjectFrame& after) {
     return 1e-6 * static_cast<double>(after.time_us - before.time_us);
+}
+
+/// Direction of the camera's level step, and how far off a point at rest may seem across it.
+double ego_step(const Pose& T_before_l, const Pose& T_after_l, Vec3& direction) {
+    const Vec3 d = T_before_l.R.transpose() * T_before_l.t - T_after_l.R.transpose() * T_after_l.t;
+    const double length = std::sqrt(d(0) * d(0) + d(1) * d(1));
+    if (!(length > kShortestStep_m)) {
+        return 0.0;
+    }
+    direction = Vec3(d(0) / length, d(1) / length, 0.0);
+    return kEgoAcross * length;
 }
 
 StereoPointMeasurement measurement(const FeatureObservation& o) {
@@ -193,6 +205,7 @@ double ObjectProblem::add_ground(const ObjectVariables& x, int k, NormalEquation
 double ObjectProblem::add_motion(const ObjectVariables& x, int k, NormalEquations* system) {
     const double dt_s = time_step_s(window_->frames[k - 1], window_->frames[k]);
     MotionModelSpec spec = motion_;
+    spec.across_sigma_m = ego_step(window_->frames[k - 1].T_c_l, window_->frames[k].T_c_l, spec.ego_direction);
     if (!options_.cues.motion) {
         // Without M the frames stay connected by next to nothing, so that one of them without a box has a solution.
         spec.standing = false;

@@ -25,7 +25,10 @@ inline constexpr MotionNoise kVehicleNoise{0.126, 0.10, 0.03, 3.0, 0.10};
 /// Pedestrians turn at will and change their speed within a step.
 inline constexpr MotionNoise kPedestrianNoise{0.126, 0.10, 1.0, 0.8, 0.10};
 /// A standing object: 0.01 m a frame (ego error), a heading that stays.
-inline constexpr MotionNoise kStandingNoise{0.126, 0.05, 0.01, 0.05, 0.05};
+inline constexpr MotionNoise kStandingNoise{0.04, 0.05, 0.01, 0.05, 0.05};
+
+/// Error across the ego's own step, as a share of it and a random walk.
+inline constexpr double kEgoAcross = 0.03;
 
 /// Standing is kept while the moving model explains the window only so much better (difference of |r|^2).
 inline constexpr double kStandingGain = 10.0;

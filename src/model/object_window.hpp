@@ -69,6 +69,11 @@ struct ObjectWindow {
     Mat3 R_l_w{Mat3::Identity()};
     Vec3 size_m{Vec3::Ones()};  ///< d: length, width, height
     Mat3 size_covariance{Mat3::Identity()};
+    /// What was known of the size before the window's first frame: the class's prior at first, then what the frames
+    /// that have left said.
+    Vec3 prior_size_m{Vec3::Ones()};
+    Mat3 prior_size_covariance{Mat3::Identity()};
+    std::uint32_t prior_frame{0};  ///< newest frame that the prior has used
     bool standing{false};                               ///< the standing hypothesis explains the window as well
     Mat6 covariance{Mat6::Identity()};                  ///< of the newest state (p, theta, v, delta)
     StaticVector<ObjectFrame, kObjectWindow> frames{};  ///< oldest first

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "estimate/factor/box_edges.hpp"
+#include "estimate/factor/size_prior.hpp"
 #include "model/stand_point.hpp"
 #include "math/so3.hpp"
 #include "math/trig.hpp"
@@ -394,6 +395,9 @@ void TrackerCore::start_track(const DetectionList& list, int item, std::uint32_t
     ObjectWindow& window = track->window;
     window.R_l_w = level_.R_l_w();
     window.size_m = prior.size_m;
+    window.prior_size_m = prior.size_m;
+    window.prior_size_covariance = size_prior(detection.object_class).covariance;
+    window.prior_frame = frame;
     window.size_covariance = prior.size_sigma_m.cwiseProduct(prior.size_sigma_m).asDiagonal();
     const Vec3 p_c = T_c_l * x.p;
     const double depth = kStartDepthSigma * std::sqrt(p_c.dot(p_c));

@@ -17,7 +17,7 @@ SizePrior size_prior(ObjectClass object_class) {
     correlation << 1.0, kLengthWidth, kLengthHeight, kLengthWidth, 1.0, kWidthHeight, kLengthHeight, kWidthHeight, 1.0;
     const Mat3 sigma = prior.size_sigma_m.asDiagonal();
     const Mat3 covariance = sigma * correlation * sigma;
-    return {prior.size_m, covariance.inverse()};
+    return {prior.size_m, covariance, covariance.inverse()};
 }
 
 double size_prior_cost(const SizePrior& prior, const Vec3& size_m) {

@@ -10,6 +10,7 @@ namespace semtrack {
 
 struct SizePrior {
     Vec3 mean_m{Vec3::Ones()};
+    Mat3 covariance{Mat3::Identity()};
     Mat3 information{Mat3::Identity()};
 };
 

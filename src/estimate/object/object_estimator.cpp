@@ -89,6 +89,7 @@ ObjectSolveReport ObjectEstimator::solve(ObjectWindow& window, NormalEquations& 
     if (system.shared_covariance(size_covariance) == Status::kOk) {
         window.size_covariance = size_covariance;
     }
+    carry_size(window);
     report.solved = true;
     cull(window, report);
     for (const std::int16_t slot : report.culled) {
@@ -147,6 +148,21 @@ void ObjectEstimator::keep_better(const ObjectWindow& window, bool standing, Nor
     if (!(lm_.final_cost + view_cost(window, problem_.variables()) < cost)) {
         problem_.set(chosen_);
         lm_ = chosen;
+    }
+}
+
+// The size is the track's, the window is short: once all its frames are newer than those the prior has used, what
+// they say of the size becomes the prior. Nothing is used twice.
+void ObjectEstimator::carry_size(ObjectWindow& window) {
+    if (window.frames[0].frame <= window.prior_frame) {
+        return;
+    }
+    window.prior_frame = window.newest().frame;
+    window.prior_size_m = window.size_m;
+    window.prior_size_covariance = window.size_covariance;
+    for (int i = 0; i < 3; ++i) {  // errors of a detector's boxes that stay for a track's whole life
+        const double floor = kSizeFloor * window.size_m(i);
+        window.prior_size_covariance(i, i) += floor * floor;
     }
 }
 

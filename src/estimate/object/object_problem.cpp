@@ -57,7 +57,7 @@ void ObjectProblem::begin(const ObjectWindow& window, const Calibration& calibra
     motion_.noise = options.standing                           ? kStandingNoise
                     : prior.motion == MotionModel::kPedestrian ? kPedestrianNoise
                                                                : kVehicleNoise;
-    size_prior_ = size_prior(window.object_class);
+    size_prior_ = {window.prior_size_m, window.prior_size_covariance, window.prior_size_covariance.inverse()};
     frames_ = window.frames.size();
     const Vec3 t_d_c(calibration.t_d_c[0], calibration.t_d_c[1], calibration.t_d_c[2]);
     for (int k = 0; k < frames_; ++k) {

@@ -175,7 +175,7 @@ bool fresh_start(const ObjectWindow& window, const Calibration& calibration, int
         s.v = v;
         s.delta = 0.0;
     }
-    x.size_m = class_prior(window.object_class).size_m;
+    x.size_m = window.prior_size_m;
     // Landmarks stay where they are in the world at the newest frame.
     const ObjectState& now = x.state[static_cast<std::size_t>(last)];
     const Mat3 R_now_before = rot_z(before.theta - theta);

@@ -12,6 +12,9 @@ inline constexpr double kFeatureHuber = 2.5;       // sigmas of one observation 
 inline constexpr double kFeatureCull = 6.0;        // sigmas: beyond, the feature is not on the object
 inline constexpr double kFeatureSigmaScale = 1.5;  // car bodies mirror and bend: noisier than the background
 
+/// Of each dimension, that no number of boxes tells better than: edges are drawn too tight or too wide all along.
+inline constexpr double kSizeFloor = 0.04;
+
 /// Prior of the steering angle: a curvature of 0.05 / m at a wheelbase of 2.6 m.
 inline constexpr double kSteeringSigma_rad = 0.13;
 /// Prior of the speed at the oldest frame: any road user.

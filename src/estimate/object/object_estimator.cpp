@@ -21,6 +21,7 @@ constexpr int kObjectIterations = 5;
 constexpr double kMaxPlausibleSpeed = 90.0;  // m/s
 constexpr double kMinStereoDisparity_px = 2.0;
 constexpr double kDoubtfulViews = 2.0;  // over the window
+constexpr double kBetterBy = 0.5;  // of the cost: equal starts do not take turns
 constexpr int kTrialsBlind = 3;
 constexpr int kYoungFrames = 9;         // of the window
 constexpr double kDoubtfulSize2 = 6.0;  // |r|^2 of the size prior, three degrees of freedom
@@ -114,7 +115,7 @@ void ObjectEstimator::try_other_starts(const ObjectWindow& window, bool standing
     const bool blind = problem_.landmarks() == 0;
     const bool young = window.frames.size() <= kYoungFrames;
     const double size2 = size_prior_cost(size_prior(window.object_class), start.size_m);
-    const bool doubtful = young || size2 > kDoubtfulSize2 || view_cost(window, start) > kDoubtfulViews;
+    const bool doubtful = young || size2 > kDoubtfulSize2 || heading_cost(window, start) > kDoubtfulViews;
     if (!doubtful && !blind) {
         return;
     }
@@ -138,14 +139,14 @@ void ObjectEstimator::keep_better(const ObjectWindow& window, bool standing, Nor
                                   SolverStep& step) {
     chosen_ = problem_.variables();
     const LmReport chosen = lm_;
-    const double cost = chosen.final_cost + view_cost(window, chosen_);
+    const double cost = chosen.final_cost + heading_cost(window, chosen_);
     options_.standing = standing;
     problem_.begin(window, calibration_, options_);
     problem_.set(other_);
     LmOptions lm;
     lm.iterations = kObjectIterations;
     lm_ = levenberg_marquardt(problem_, lm, system, step);
-    if (!(lm_.final_cost + view_cost(window, problem_.variables()) < cost)) {
+    if (!(lm_.final_cost + heading_cost(window, problem_.variables()) < cost - kBetterBy)) {
         problem_.set(chosen_);
         lm_ = chosen;
     }

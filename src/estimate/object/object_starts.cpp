@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kWrongViewCost = 2.0;  // of a frame whose faces are others than the detector says
 constexpr double kNextViewCost = 0.5;   // ... by one class
+constexpr double kReverseCost = 3.0;     // of driving backwards, when no viewpoint was given: one in twenty
+constexpr double kReverseSpeed = 0.5;    // m/s
 constexpr double kMaxTurn_rad = 1.2;    // to a twin
 constexpr double kBesideMiddle_rad = 0.35;  // of a class of two faces, which spans 1.4 rad
 constexpr double kPathSpeed = 1.5;          // m/s: slower ones have no direction
@@ -87,13 +89,15 @@ double middle_of_class(int horizontal) {
 
 }  // namespace
 
-double view_cost(const ObjectWindow& window, const ObjectVariables& x) {
+double heading_cost(const ObjectWindow& window, const ObjectVariables& x) {
     double cost = 0.0;
+    bool viewed = false;
     for (int k = 0; k < window.frames.size(); ++k) {
         const ObjectFrame& frame = window.frames[k];
         if (!frame.box.valid || frame.box.viewpoint.horizontal < 0) {
             continue;
         }
+        viewed = true;
         const ObjectState& state = x.state[static_cast<std::size_t>(k)];
         const int seen = visible_faces(frame.T_c_l * state.T_l_o(), x.size_m).horizontal;
         const int apart = seen > frame.box.viewpoint.horizontal ? seen - frame.box.viewpoint.horizontal
@@ -101,7 +105,8 @@ double view_cost(const ObjectWindow& window, const ObjectVariables& x) {
         const int steps = apart > 4 ? 8 - apart : apart;
         cost += steps == 0 ? 0.0 : steps == 1 ? kNextViewCost : kWrongViewCost;
     }
-    return cost;
+    const ObjectState& newest = x.state[static_cast<std::size_t>(window.frames.size() - 1)];
+    return cost + (!viewed && newest.v < -kReverseSpeed ? kReverseCost : 0.0);
 }
 
 bool twin_start(const ObjectWindow& window, bool mirrored, ObjectVariables& x) {

@@ -8,8 +8,9 @@
 namespace semtrack {
 
 /// Wrong faces over the window; an adjacent class is often the detector's error. Bounded a frame (redescending), so
-/// that a few wrong classes do not hold a heading that the edges contradict.
-[[nodiscard]] double view_cost(const ObjectWindow& window, const ObjectVariables& x);
+/// that a few wrong classes do not hold a heading that the edges contradict. Without any class in the window: driving
+/// backwards costs, so that the sign of the speed tells front from rear.
+[[nodiscard]] double heading_cost(const ObjectWindow& window, const ObjectVariables& x);
 
 /// The present solution x turned to its twin, the second heading whose box is nearly as wide in the image: mirrored
 /// about the line of sight, or, with the same two faces, on the other side of the heading at which the box is widest.

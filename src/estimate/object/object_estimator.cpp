@@ -139,14 +139,15 @@ void ObjectEstimator::keep_better(const ObjectWindow& window, bool standing, Nor
                                   SolverStep& step) {
     chosen_ = problem_.variables();
     const LmReport chosen = lm_;
-    const double cost = chosen.final_cost + heading_cost(window, chosen_);
+    const double cost = chosen.final_cost + heading_cost(window, chosen_) + outside_cost(window, chosen_);
     options_.standing = standing;
     problem_.begin(window, calibration_, options_);
     problem_.set(other_);
     LmOptions lm;
     lm.iterations = kObjectIterations;
     lm_ = levenberg_marquardt(problem_, lm, system, step);
-    if (!(lm_.final_cost + heading_cost(window, problem_.variables()) < cost - kBetterBy)) {
+    const ObjectVariables& x = problem_.variables();
+    if (!(lm_.final_cost + heading_cost(window, x) + outside_cost(window, x) < cost - kBetterBy)) {
         problem_.set(chosen_);
         lm_ = chosen;
     }

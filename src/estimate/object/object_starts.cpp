@@ -16,6 +16,9 @@ constexpr double kWrongViewCost = 2.0;  // of a frame whose faces are others tha
 constexpr double kNextViewCost = 0.5;   // ... by one class
 constexpr double kReverseCost = 3.0;     // of driving backwards, when no viewpoint was given: one in twenty
 constexpr double kReverseSpeed = 0.5;    // m/s
+constexpr double kOutsideSigma_m = 0.2;   // mirrors and bumpers, and the label's own tightness
+constexpr double kOutsideMost2 = 9.0;     // a point that is not on the object counts as three sigmas
+constexpr int kIndependentPoints = 8;
 constexpr double kMaxTurn_rad = 1.2;    // to a twin
 constexpr double kBesideMiddle_rad = 0.35;  // of a class of two faces, which spans 1.4 rad
 constexpr double kPathSpeed = 1.5;          // m/s: slower ones have no direction
@@ -107,6 +110,27 @@ double heading_cost(const ObjectWindow& window, const ObjectVariables& x) {
     }
     const ObjectState& newest = x.state[static_cast<std::size_t>(window.frames.size() - 1)];
     return cost + (!viewed && newest.v < -kReverseSpeed ? kReverseCost : 0.0);
+}
+
+double outside_cost(const ObjectWindow& window, const ObjectVariables& x) {
+    double sum = 0.0;
+    int n = 0;
+    for (int s = 0; s < kMaxObjectFeatures; ++s) {
+        const auto slot = static_cast<std::size_t>(s);
+        if (!window.landmarks[slot].valid || !window.newest().features[slot].valid) {
+            continue;
+        }
+        ++n;
+        double d2 = 0.0;
+        for (int i = 0; i < 3; ++i) {
+            const double out = std::fabs(x.f_o[slot](i)) - 0.5 * x.size_m(i);
+            d2 += out > 0.0 ? out * out : 0.0;
+        }
+        d2 /= kOutsideSigma_m * kOutsideSigma_m;
+        sum += d2 < kOutsideMost2 ? d2 : kOutsideMost2;
+    }
+    // One body's shape: its points err together.
+    return n > kIndependentPoints ? 0.5 * sum * kIndependentPoints / n : 0.5 * sum;
 }
 
 bool twin_start(const ObjectWindow& window, bool mirrored, ObjectVariables& x) {

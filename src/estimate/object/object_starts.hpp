@@ -12,6 +12,9 @@ namespace semtrack {
 /// backwards costs, so that the sign of the speed tells front from rear.
 [[nodiscard]] double heading_cost(const ObjectWindow& window, const ObjectVariables& x);
 
+/// Landmarks lie on the body: cost of those outside the box. The observations alone do not tie a box to its landmarks.
+[[nodiscard]] double outside_cost(const ObjectWindow& window, const ObjectVariables& x);
+
 /// The present solution x turned to its twin, the second heading whose box is nearly as wide in the image: mirrored
 /// about the line of sight, or, with the same two faces, on the other side of the heading at which the box is widest.
 /// Landmarks stay where they are in the world. false: the twin shows other faces, the detector's class would have told.

@@ -14,7 +14,8 @@ namespace semtrack {
 namespace {
 
 constexpr std::int64_t kSameImage_us = 5000;  // stamps of one image may differ by rounding, not by half a frame
-constexpr double kBorder_px = 1.5;            // an edge this near to the border is the border's, not the object's
+constexpr double kBorder_px = 1.5;            // an edge this near to the border is the border's, not the object's ...
+constexpr double kBorderSigmas = 2.0;         // ... and as much nearer as a detector may put it inside
 constexpr int kWrongViews = 3;                // detections in a row that contradict the heading
 constexpr double kStartDepthSigma = 0.15;     // of the depth: a size prior is off by so much
 
@@ -52,17 +53,12 @@ std::array<double, 4> edge_sigmas(const DetectionList& list, int item, int width
             out[kBottom] *= kHidden;
         }
     }
-    if (box.left < kBorder_px) {
-        out[kLeft] = 0.0;
-    }
-    if (box.right > width - 1 - kBorder_px) {
-        out[kRight] = 0.0;
-    }
-    if (box.top < kBorder_px) {
-        out[kTop] = 0.0;
-    }
-    if (box.bottom > height - 1 - kBorder_px) {
-        out[kBottom] = 0.0;
+    const double border = kBorder_px + kBorderSigmas * sigma / kCorrelated;
+    const std::array<double, 4> inside{box.left, width - 1 - box.right, box.top, height - 1 - box.bottom};
+    for (std::size_t e = 0; e < inside.size(); ++e) {
+        if (inside[e] < border) {
+            out[e] = 0.0;
+        }
     }
     return out;
 }

@@ -100,8 +100,8 @@ Scenario make_beside_scenario() {
 }
 
 Scenario make_passed_scenario() {
-    Scenario s = make_base(53U, 80, 8.0);
-    add(s, 1, kCar, make_motion(-3.0, 16.0, 0.0, 6.0));
+    Scenario s = make_base(53U, 80, 7.6);
+    add(s, 1, kCar, make_motion(-3.0, 14.0, 0.0, 6.0));
     add_parked_cars(s.street, 0.0, 90.0, 15U, 10, s);
     return s;
 }

@@ -16,7 +16,7 @@ struct Entry {
     Scenario (*make)();
 };
 
-constexpr std::array<Entry, 24> kScenarios{{
+constexpr std::array<Entry, 25> kScenarios{{
     {"street", make_street_scenario},
     {"empty", make_empty_scenario},
     {"traffic", make_traffic_scenario},
@@ -24,6 +24,7 @@ constexpr std::array<Entry, 24> kScenarios{{
     {"crossing", make_crossing_scenario},
     {"cut_in", make_cut_in_scenario},
     {"beside", make_beside_scenario},
+    {"passed", make_passed_scenario},
     {"turning", make_turning_scenario},
     {"reversing", make_reversing_scenario},
     {"pedestrians", make_pedestrians_scenario},

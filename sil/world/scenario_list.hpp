@@ -31,6 +31,8 @@ namespace semtrack::sil::world {
 [[nodiscard]] Scenario make_cut_in_scenario();
 /// A car overtakes so close that it is cut by the image's border for seconds.
 [[nodiscard]] Scenario make_beside_scenario();
+/// The ego passes a slower car: seen whole at first, then for seconds with two edges outside the image.
+[[nodiscard]] Scenario make_passed_scenario();
 /// A car turns off, one turns in.
 [[nodiscard]] Scenario make_turning_scenario();
 /// A parked car backs out on an arc, stops and drives off.

@@ -99,6 +99,13 @@ Scenario make_beside_scenario() {
     return s;
 }
 
+Scenario make_passed_scenario() {
+    Scenario s = make_base(53U, 80, 7.6);
+    add(s, 1, kCar, make_motion(-3.0, 14.0, 0.0, 6.0));
+    add_parked_cars(s.street, 0.0, 90.0, 15U, 10, s);
+    return s;
+}
+
 Scenario make_turning_scenario() {
     Scenario s = make_base(45U, 50, 4.0);
     add(s, 1, kCar, make_motion(0.0, 14.0, 0.0, 5.0, {{1.6, -0.3, 0.0}, {2.6, 0.0, 1.0 / 6.5}}));

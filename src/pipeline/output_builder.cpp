@@ -38,6 +38,23 @@ MovementState movement(const Track& track, double yaw_v) {
     return sin_cos(yaw_v).cos < -0.5 ? MovementState::kOncoming : MovementState::kMoving;
 }
 
+/// Velocity over ground = velocity in the window + what the ego's speed and yaw rate are off by: e_x ds + dw x r, with
+/// r the object's place in V. Each adds a rank-one part; sigma_speed is the part along the heading.
+void describe_velocity_sigmas(double v, const Mat6& C, const EgoView& ego, const Vec3& heading_v, TrackedObject& o) {
+    const double hx = heading_v(0);
+    const double hy = heading_v(1);
+    const double along2 = C(4, 4);
+    const double across = v * o.sigma_yaw;
+    const double turn_x = -ego.sigma_yaw_rate * o.position_v[1];
+    const double turn_y = ego.sigma_yaw_rate * o.position_v[0];
+    const double ego_along = ego.sigma_speed * hx;
+    const double turn_along = turn_x * hx + turn_y * hy;
+    o.sigma_speed = root(along2 + ego_along * ego_along + turn_along * turn_along);
+    o.sigma_velocity_v = {
+        root(along2 * hx * hx + across * across * hy * hy + ego.sigma_speed * ego.sigma_speed + turn_x * turn_x),
+        root(along2 * hy * hy + across * across * hx * hx + turn_y * turn_y)};
+}
+
 void describe_motion(const Track& track, const EgoView& ego, const Mat3& R_w_l, TrackedObject& o) {
     const ObjectState& x = track.window.newest().state;
     const ClassPrior& prior = class_prior(track.window.object_class);
@@ -50,12 +67,7 @@ void describe_motion(const Track& track, const EgoView& ego, const Mat3& R_w_l, 
     o.velocity_v = {x.v * heading_v(0), x.v * heading_v(1)};
     const Mat6& C = track.window.covariance;
     o.sigma_yaw = root(C(3, 3));
-    o.sigma_speed = root(C(4, 4) + ego.sigma_speed * ego.sigma_speed);
-    const double across = x.v * o.sigma_yaw;
-    o.sigma_velocity_v = {root(o.sigma_speed * o.sigma_speed * heading_v(0) * heading_v(0) +
-                               across * across * heading_v(1) * heading_v(1)),
-                          root(o.sigma_speed * o.sigma_speed * heading_v(1) * heading_v(1) +
-                               across * across * heading_v(0) * heading_v(0))};
+    describe_velocity_sigmas(x.v, C, ego, heading_v, o);
     if (prior.motion == MotionModel::kVehicle) {
         const double wheelbase = prior.wheelbase_ratio * track.window.size_m(0);
         const double t = tan_rad(x.delta);

@@ -68,6 +68,8 @@ private:
     [[nodiscard]] bool infer(const Detection& detection, const Pose& T_c_l, const Vec3& size_m, const double* theta,
                              ObjectState& x) const;
     [[nodiscard]] Box2d expected_box(const Track& track, int index) const;
+    // tracker_association.cpp
+    [[nodiscard]] std::array<double, 4> edge_tolerance(const Track& track, int index, const Box2d& expected) const;
     [[nodiscard]] bool frame_of(std::int64_t time_us, std::uint32_t& frame, Pose& T_w_c) const;
 
     // tracker_features.cpp: stages 3 to 6
@@ -105,7 +107,7 @@ private:
     TrackTable tracks_{};
     PatchMatcher patch_{};
     OrbExtractor native_extractor_{};
-    OrbMatcher orb_{};  // in place of patch_ when the configuration says so
+    OrbMatcher orb_{};            // in place of patch_ when the configuration says so
     ExternalMatcher external_{};  // in place of both while Input::features comes
     OwnerMaskBuilder mask_builder_{};
     OwnerMask mask_left_{};

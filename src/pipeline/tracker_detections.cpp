@@ -193,6 +193,7 @@ void TrackerCore::take_list(const DetectionList& list, std::uint32_t frame) {
         TrackBox box;
         box.object_class = track.window.object_class;
         box.box = expected_box(track, index);
+        box.sigma_px = edge_tolerance(track, index, box.box);
         (void)boxes_.try_push_back(box);
         (void)candidates_.try_push_back({s, index});
     }

@@ -1,5 +1,6 @@
 #include "estimate/align/align_box.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "math/camera.hpp"
@@ -13,11 +14,12 @@ namespace semtrack {
 namespace {
 
 constexpr int kIterations = 4;
-constexpr double kFaceSigma_m = 0.15;  // bodies bend in by 0-0.4 m from the faces of their box
-constexpr double kFaceInset_m = 0.10;  // ... by this at the median
-constexpr double kCauchy = 2.0;        // sigmas
-constexpr double kMaxInside_m = 1.0;   // farther from every visible face: glass, the other side, background
-constexpr double kMaxShare = 0.5;      // a shift beyond half of the box is no alignment
+constexpr double kFaceSigma_m = 0.15;   // bodies bend in by 0-0.4 m from the faces of their box
+constexpr double kFaceInset_m = 0.10;   // ... by this at the median
+constexpr double kShapeSigma_m = 0.10;  // ... and a face as a whole by so much about that: its points share it
+constexpr double kCauchy = 2.0;         // sigmas
+constexpr double kMaxInside_m = 1.0;    // farther from every visible face: glass, the other side, background
+constexpr double kMaxShare = 0.5;       // a shift beyond half of the box is no alignment
 constexpr double kDisparitySigma_px = 0.35;
 
 /// A landmark in the object frame and the sigma of its position along the line of sight.
@@ -102,12 +104,33 @@ struct Alignment {
     int points{0};
 };
 
+/// Normal equations of one face's points.
+struct FaceSum {
+    Mat3 H{Mat3::Zero()};
+    Vec3 g{Vec3::Zero()};
+    double points{0};  // by their weights, one for a near point
+};
+using FaceSums = std::array<FaceSum, 4>;
+
+/// A point at (x, y) in the moved frame, on face i.
+void add_point(const CloudPoint& p, const Face& face, const SinCos& t, double x, double y, FaceSum& sum) {
+    const double inward = face.offset > 0.0 ? -kFaceInset_m : kFaceInset_m;
+    const double along = face.along_x ? p.ray_x : p.ray_y;
+    const double variance = kFaceSigma_m * kFaceSigma_m + p.sigma_m * p.sigma_m * along * along;
+    const double sigma = std::sqrt(variance);
+    const double r = ((face.along_x ? x : y) - face.offset - inward) / sigma;
+    const Vec3 J = face.along_x ? Vec3(-t.cos / sigma, -t.sin / sigma, y / sigma)
+                                : Vec3(t.sin / sigma, -t.cos / sigma, -x / sigma);
+    const Robust rho = cauchy(r * r, kCauchy);
+    sum.H += rho.weight * (J * J.transpose());
+    sum.g += rho.weight * r * J;
+    sum.points += rho.weight * kFaceSigma_m * kFaceSigma_m / variance;
+}
+
 /// One Gauss-Newton step over all points; false: too few, or singular.
 bool iterate(const Cloud& cloud, const Faces& faces, const Vec3& size_m, const Mat3& prior, Alignment& a) {
     const SinCos t = sin_cos(a.dtheta);
-    const Vec3 delta(a.dx, a.dy, a.dtheta);
-    Mat3 H = prior;
-    Vec3 g = prior * delta;
+    FaceSums sums{};
     a.points = 0;
     for (const CloudPoint& p : cloud) {
         // Coordinates in the moved frame: R^T (f - d)
@@ -116,20 +139,19 @@ bool iterate(const Cloud& cloud, const Faces& faces, const Vec3& size_m, const M
         const double x = t.cos * rx + t.sin * ry;
         const double y = -t.sin * rx + t.cos * ry;
         const int i = nearest_face(faces, x, y, size_m, kMaxInside_m + p.sigma_m);
-        if (i < 0) {
-            continue;
+        if (i >= 0) {
+            add_point(p, faces[i], t, x, y, sums[static_cast<std::size_t>(i)]);
+            ++a.points;
         }
-        const Face& face = faces[i];
-        const double inward = face.offset > 0.0 ? -kFaceInset_m : kFaceInset_m;
-        const double along = face.along_x ? p.ray_x : p.ray_y;
-        const double sigma = std::sqrt(kFaceSigma_m * kFaceSigma_m + p.sigma_m * p.sigma_m * along * along);
-        const double r = ((face.along_x ? x : y) - face.offset - inward) / sigma;
-        const Vec3 J = face.along_x ? Vec3(-t.cos / sigma, -t.sin / sigma, y / sigma)
-                                    : Vec3(t.sin / sigma, -t.cos / sigma, -x / sigma);
-        const Robust rho = cauchy(r * r, kCauchy);
-        H += rho.weight * (J * J.transpose());
-        g += rho.weight * r * J;
-        ++a.points;
+    }
+    Mat3 H = prior;
+    Vec3 g = prior * Vec3(a.dx, a.dy, a.dtheta);
+    for (const FaceSum& sum : sums) {
+        // n points with a common error are worth no more than that error allows.
+        const double common = sum.points * kShapeSigma_m * kShapeSigma_m / (kFaceSigma_m * kFaceSigma_m);
+        const double share = 1.0 / (1.0 + common);
+        H += share * sum.H;
+        g += share * sum.g;
     }
     if (a.points < kMinAlignmentPoints || !(std::fabs(H.determinant()) > 0.0)) {
         return false;

@@ -18,7 +18,8 @@ struct AlignmentReport {
 };
 
 /// Minimises sum rho(d_n^2 / sigma_n^2) + Delta^T Sigma^-1 Delta over Delta = (dx, dy, dtheta): d_n the distance of
-/// landmark n, seen in the newest frame, to the nearest face the camera sees; Sigma the covariance of the MAP step.
+/// landmark n, seen in the newest frame, to the nearest face the camera sees; Sigma the covariance of the MAP step. The
+/// points of one face share the error of its shape: they weigh as 1 / (1 / n + (shape / point sigma)^2), not as n.
 /// kNotObservable: fewer than kMinAlignmentPoints points near a face, or a class without heading; nothing changes.
 /// Four fixed iterations; no allocation.
 inline constexpr int kMinAlignmentPoints = 5;

@@ -13,6 +13,7 @@ constexpr double kCentreWeight = 0.6;
 constexpr double kShapeWeight = 0.4;
 constexpr double kOtherClass = 0.85;  // car and van look alike: a step of class costs, but does not forbid
 constexpr double kForbidden = 1e6;
+constexpr double kBlindShare = 0.2;  // of a pair's worth that does not depend on the agreement of the edges
 
 double class_factor(ObjectClass a, ObjectClass b) {
     return a == b ? 1.0 : may_be_one(a, b) ? kOtherClass : 0.0;
@@ -51,6 +52,30 @@ double box_similarity(const TrackBox& track, const Detection& detection) {
     }
     const double shape = ratio(wa, wb) * ratio(ha, hb);
     return class_factor(track.object_class, detection.object_class) * (kCentreWeight * centre + kShapeWeight * shape);
+}
+
+double edge_agreement(const TrackBox& track, const Detection& detection) {
+    const Box2d& a = track.box;
+    const Box2d& b = detection.box;
+    const std::array<double, 4> off{b.left - a.left, b.right - a.right, b.top - a.top, b.bottom - a.bottom};
+    double sum = 0.0;
+    int edges = 0;
+    for (std::size_t e = 0; e < off.size(); ++e) {
+        if (track.sigma_px[e] > 0.0) {
+            const double r = off[e] / track.sigma_px[e];
+            sum += r * r;
+            ++edges;
+        }
+    }
+    return edges == 0 ? 1.0 : 1.0 / (1.0 + sum / (kEdgeTolerance * static_cast<double>(edges)));
+}
+
+double pair_worth(const TrackBox& track, const Detection& detection) {
+    const double above = box_similarity(track, detection) - kLostSimilarity;
+    if (!(above > 0.0)) {
+        return 0.0;
+    }
+    return above * (kBlindShare + (1.0 - kBlindShare) * edge_agreement(track, detection));
 }
 
 Box2d rotated_box(const Box2d& box, const Mat3& R_cur_prev, const PinholeCamera& camera) {
@@ -132,11 +157,11 @@ void Associator::run(const TrackBoxes& tracks, const DetectionList& list, Assign
     for (int r = 1; r <= rows; ++r) {
         row_potential_[static_cast<std::size_t>(r)] = 0.0;
         for (int j = 1; j <= detections; ++j) {
-            const double s = box_similarity(tracks[r - 1], list.items[j - 1]);
-            cost(r, j) = s < kLostSimilarity ? kForbidden : 1.0 - s;
+            const double worth = pair_worth(tracks[r - 1], list.items[j - 1]);
+            cost(r, j) = worth > 0.0 ? 1.0 - worth : kForbidden;
         }
         for (int j = 1; j <= rows; ++j) {
-            cost(r, detections + j) = j == r ? 1.0 - kLostSimilarity : kForbidden;
+            cost(r, detections + j) = j == r ? 1.0 : kForbidden;
         }
     }
     row_potential_[0] = 0.0;

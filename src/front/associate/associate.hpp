@@ -15,6 +15,9 @@ namespace semtrack {
 struct TrackBox {
     Box2d box{};
     ObjectClass object_class{ObjectClass::kCar};
+    /// Of what a detection's edges (left, right, top, bottom) may differ from the box: detector and predicted motion;
+    /// 0: not known.
+    std::array<double, 4> sigma_px{};
 };
 using TrackBoxes = StaticVector<TrackBox, kMaxObjects>;
 
@@ -24,6 +27,7 @@ struct Assignment {
 };
 
 inline constexpr double kLostSimilarity = 0.4;
+inline constexpr double kEdgeTolerance = 4.0;  ///< mean squared residual at which edges agree by half: two sigmas
 
 /// Detectors confuse classes: vehicles with vehicles, people with people.
 [[nodiscard]] bool may_be_one(ObjectClass a, ObjectClass b);
@@ -32,13 +36,22 @@ inline constexpr double kLostSimilarity = 0.4;
 /// counting as half the height at least; and ratio of widths and heights).
 [[nodiscard]] double box_similarity(const TrackBox& track, const Detection& detection);
 
+/// 0..1: how well the edges agree, 1 / (1 + mean r^2 / kEdgeTolerance) over the edges that have a sigma; 1 without any.
+/// Unlike the similarity it knows how far prediction and detector can be trusted: of two people one behind the other,
+/// whose boxes differ by a few pixels, each gets his own.
+[[nodiscard]] double edge_agreement(const TrackBox& track, const Detection& detection);
+
+/// What the assignment maximises for a pair: 0 at the lost threshold and below, so that the agreement decides between
+/// pairs that are similar enough and never refuses one (as a gate it lost tracks whose motion is not known yet).
+[[nodiscard]] double pair_worth(const TrackBox& track, const Detection& detection);
+
 /// The box turned with the camera: a far point at (u, v) moves by the rotation alone. R_cur_prev maps camera
 /// coordinates of the earlier frame to the present one.
 [[nodiscard]] Box2d rotated_box(const Box2d& box, const Mat3& R_cur_prev, const PinholeCamera& camera);
 
-/// The assignment with the largest sum of what pairs have above kLostSimilarity, so that a pair at the threshold is
-/// worth no more than none and a chain of poor pairs does not push out good ones (Hungarian method, at most kMaxObjects
-/// x kMaxDetections; ties go to the lower indices). O(tracks^2 detections), no allocation.
+/// The assignment with the largest sum of pair_worth, which counts from kLostSimilarity, so that a pair at the
+/// threshold is worth no more than none and a chain of poor pairs does not push out good ones (Hungarian method, at
+/// most kMaxObjects x kMaxDetections; ties go to the lower indices). O(tracks^2 detections), no allocation.
 class Associator {
 public:
     void run(const TrackBoxes& tracks, const DetectionList& list, Assignment& out);

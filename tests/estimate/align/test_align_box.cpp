@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "estimate/object/object_scene.hpp"
+#include "math/so3.hpp"
+#include "math/trig.hpp"
 
 namespace semtrack {
 namespace {
@@ -86,6 +88,118 @@ TEST_F(AlignBoxTest, CertainStateHoldsAgainstItsPoints) {
     window().covariance = Mat6::Identity() * 1e-6;
     ASSERT_EQ(align(), Status::kOk);
     EXPECT_LT(std::fabs(report_.dx_m), 0.01);
+}
+
+/// Forty points 0.1 m inside the faces that the camera sees, given in the frame of a state off by shift and turn.
+TEST_F(AlignBoxTest, EveryHeadingIsCorrectedAlike) {
+    int checked = 0;
+    for (const double theta : {-3.1415, -2.6, -1.9, -1.1, -0.4, 0.3, 1.0, 1.4, 2.4, 3.1415}) {
+        SetUp();
+        window().newest().state.theta = theta;
+        const ObjectState before = window().newest().state;
+        const ObjectFrame& frame = window().newest();
+        const Vec3 camera_o = frame.state.T_l_o().inverse() * frame.T_c_l.inverse().t;
+        const double ex = camera_o(0) > 0.0 ? 1.0 : -1.0;
+        const double ey = camera_o(1) > 0.0 ? 1.0 : -1.0;
+        const Vec3 shift(0.3, -0.2, 0.0);
+        const double turn = 0.05;
+        for (int i = 0; i < 40; ++i) {
+            const double t = -0.95 + 0.1 * static_cast<double>(i / 2);
+            const Vec3 x = i % 2 == 0 ? Vec3(1.9 * t, ey * 0.725, 0.2) : Vec3(ex * 1.95, 0.7 * t, -0.1);
+            const auto slot = static_cast<std::size_t>(i);
+            window().landmarks[slot] = {static_cast<std::uint32_t>(i + 1), true, rot_z(turn) * x + shift};
+            window().newest().features[slot].valid = true;
+        }
+        ASSERT_EQ(align(), Status::kOk) << theta;
+        EXPECT_NEAR(report_.dx_m, 0.3, 0.03) << theta;
+        EXPECT_NEAR(report_.dy_m, -0.2, 0.03) << theta;
+        EXPECT_NEAR(report_.dtheta_rad, turn, 0.01) << theta;
+        const ObjectState& after = window().newest().state;
+        EXPECT_NEAR(wrap_angle(after.theta - before.theta), report_.dtheta_rad, 1e-12);
+        EXPECT_LE(std::fabs(after.theta), kPi);
+        ++checked;
+    }
+    EXPECT_EQ(checked, 10);
+}
+
+/// Straight behind: the rear is all that is seen. Points in pairs left and right, so that they say nothing of the turn.
+class AlignRearTest : public AlignBoxTest {
+protected:
+    void SetUp() override {
+        AlignBoxTest::SetUp();
+        window().newest().state.p(1) = 0.0;
+    }
+    void put_rear(double shift_m) {
+        for (int i = 0; i < 20; ++i) {
+            const double y = (i % 2 == 0 ? 0.07 : -0.07) * static_cast<double>(i / 2 + 1);
+            const auto slot = static_cast<std::size_t>(i);
+            window().landmarks[slot] = {static_cast<std::uint32_t>(i + 1), true, Vec3(-1.95 + shift_m, y, 0.1)};
+            window().newest().features[slot].valid = true;
+        }
+    }
+};
+
+TEST_F(AlignRearTest, WhatOneFaceDoesNotShowStaysWhereTheMapPutIt) {
+    put_rear(0.3);
+    ASSERT_EQ(align(), Status::kOk);
+    EXPECT_EQ(report_.points, 20);
+    EXPECT_NEAR(report_.dx_m, 0.3, 0.01);  // 0.3 / (1 + 0.1^2 / 1^2): shape against the MAP's metre
+    EXPECT_LT(report_.dx_m, 0.3 / 1.01);
+    EXPECT_NEAR(report_.dy_m, 0.0, 1e-12);
+    EXPECT_NEAR(report_.dtheta_rad, 0.0, 1e-12);
+}
+
+TEST_F(AlignRearTest, WhatIsBoundToItByTheMapFollows) {
+    put_rear(0.2);
+    window().covariance(0, 1) = window().covariance(1, 0) = 0.5;  // depth and side known together, as along a ray
+    ASSERT_EQ(align(), Status::kOk);
+    EXPECT_NEAR(report_.dy_m, 0.5 * report_.dx_m, 5e-4);
+}
+
+TEST_F(AlignRearTest, ManyPointsOfAFaceDoNotBeatAMapThatIsSurerThanItsShape) {
+    put_rear(0.2);
+    window().covariance = Mat6::Identity() * 1e-4;  // 0.01 m
+    ASSERT_EQ(align(), Status::kOk);
+    EXPECT_GT(report_.dx_m, 0.0);
+    EXPECT_LT(report_.dx_m, 0.2 * 1e-4 / (1e-4 + 0.1 * 0.1) + 1e-6);
+}
+
+TEST_F(AlignRearTest, PointsOfFacesThatAreHiddenDoNotCount) {
+    for (int i = 0; i < 20; ++i) {  // on the front, seen through the windows
+        const auto slot = static_cast<std::size_t>(i);
+        window().landmarks[slot] = {static_cast<std::uint32_t>(i + 1), true, Vec3(1.6, 0.07 * (i - 10), 0.3)};
+        window().newest().features[slot].valid = true;
+    }
+    const ObjectState before = window().newest().state;
+    EXPECT_EQ(align(), Status::kNotObservable);
+    EXPECT_EQ(window().newest().state.p, before.p);
+    EXPECT_EQ(window().newest().state.theta, before.theta);
+}
+
+TEST_F(AlignRearTest, NothingHappensWhenTheCameraStandsInTheBox) {
+    put_rear(0.2);
+    window().newest().state.p = Vec3(0.5, 0.2, -0.9);
+    const Vec3 before = window().newest().state.p;
+    EXPECT_EQ(align(), Status::kNotObservable);
+    EXPECT_EQ(window().newest().state.p, before);
+}
+
+TEST_F(AlignBoxTest, ThreePointsChangeNothing) {
+    put_points(3, Vec3(0.4, -0.2, 0.0), 0.05);
+    const ObjectState before = window().newest().state;
+    EXPECT_EQ(align(), Status::kNotObservable);
+    EXPECT_EQ(window().newest().state.p, before.p);
+    EXPECT_EQ(window().newest().state.theta, before.theta);
+}
+
+TEST_F(AlignBoxTest, PointsOfTheBackgroundDoNotPull) {
+    put_points(40, Vec3::Zero(), 0.0);
+    for (std::size_t i = 0; i < 10; ++i) {
+        window().landmarks[i].f_o = Vec3(6.0, 3.0, 0.3);  // a wall behind the car
+    }
+    ASSERT_EQ(align(), Status::kOk);
+    EXPECT_EQ(report_.points, 30);
+    EXPECT_LT(std::fabs(report_.dx_m) + std::fabs(report_.dy_m), 0.03);
 }
 
 TEST_F(AlignBoxTest, FewPointsChangeNothing) {

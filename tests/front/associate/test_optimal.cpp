@@ -34,7 +34,11 @@ Box2d random_box(Rng& rng, double spread_px) {
 Problem random_problem(Rng& rng, int tracks, int detections, double spread_px) {
     Problem p;
     for (int i = 0; i < tracks; ++i) {
-        EXPECT_TRUE(p.tracks.try_push_back({random_box(rng, spread_px), kSome[rng.below(4)]}));
+        TrackBox track{random_box(rng, spread_px), kSome[rng.below(4)]};
+        if (i % 2 == 0) {  // the others' motion is not known
+            track.sigma_px = {between(rng, 2.0, 20.0), 0.0, between(rng, 1.0, 4.0), between(rng, 1.0, 4.0)};
+        }
+        EXPECT_TRUE(p.tracks.try_push_back(track));
     }
     for (int i = 0; i < detections; ++i) {
         Detection d;
@@ -45,10 +49,11 @@ Problem random_problem(Rng& rng, int tracks, int detections, double spread_px) {
     return p;
 }
 
-/// What a pair is worth: what it has above the threshold; below it is not a pair.
+/// What a pair is worth: what it has above the threshold, a fifth of it whatever the edges say; below it is not a pair.
 double worth(const Problem& p, int track, int detection) {
     const double s = box_similarity(p.tracks[track], p.list.items[detection]);
-    return s < kLostSimilarity ? 0.0 : s - kLostSimilarity;
+    const double share = 0.2 + 0.8 * edge_agreement(p.tracks[track], p.list.items[detection]);
+    return s < kLostSimilarity ? 0.0 : share * (s - kLostSimilarity);
 }
 
 double best_sum(const Problem& p, int track, unsigned used) {

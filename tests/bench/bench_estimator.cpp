@@ -41,7 +41,8 @@ struct Series {
 };
 
 template <class Data>
-void compare(const char* what, std::vector<std::unique_ptr<Data>>& problems, const SolveLimits& limits) {
+void compare(const char* what, std::vector<std::unique_ptr<Data>>& problems, const SolveLimits& limits,
+             [[maybe_unused]] bool with_peer) {
     std::printf("%s: ms median, p95, max of %zu problems\n", what, problems.size());
     Series ours;
     Series peer;
@@ -49,6 +50,9 @@ void compare(const char* what, std::vector<std::unique_ptr<Data>>& problems, con
     for (const std::unique_ptr<Data>& data : problems) {
         ours.outcomes.push_back(data->solve(limits));
 #ifdef SEMTRACK_BENCH_CERES
+        if (!with_peer) {
+            continue;
+        }
         peer.outcomes.push_back(ceres_solve(*data, limits));
         ratio.push_back(ours.outcomes.back().cost / peer.outcomes.back().cost);
         const double start = ours.outcomes.back().cost_start / peer.outcomes.back().cost_start;
@@ -76,22 +80,22 @@ std::vector<std::unique_ptr<Data>> make(int count) {
     return out;
 }
 
-void run(bool object, bool ego, int count) {
+void run(bool object, bool ego, int count, bool with_peer) {
     const SolveLimits five{5, 0.0};
     const SolveLimits converged{50, 1e-6};
     if (object) {
         auto problems = make<ObjectProblemData>(count);
         std::printf("object: %zu frames, %zu points, %zu observations\n", problems[0]->states.size(),
                     problems[0]->points.size(), problems[0]->observations.size());
-        compare("object, 5 iterations", problems, five);
-        compare("object, converged to 1e-6", problems, converged);
+        compare("object, 5 iterations", problems, five, with_peer);
+        compare("object, converged to 1e-6", problems, converged, with_peer);
     }
     if (ego) {
         auto problems = make<EgoProblemData>(count);
         std::printf("ego: %zu frames, %zu points, %zu observations\n", problems[0]->T_c_w.size(),
                     problems[0]->points.size(), problems[0]->observations.size());
-        compare("ego window, 5 iterations", problems, five);
-        compare("ego window, converged to 1e-6", problems, converged);
+        compare("ego window, 5 iterations", problems, five, with_peer);
+        compare("ego window, converged to 1e-6", problems, converged, with_peer);
     }
     std::printf("scratch: normal equations %zu KiB, step %zu KiB, object problem %zu KiB, ego problem %zu KiB\n",
                 sizeof(NormalEquations) / 1024, sizeof(SolverStep) / 1024, sizeof(ObjectProblem) / 1024,
@@ -101,9 +105,14 @@ void run(bool object, bool ego, int count) {
 }  // namespace
 }  // namespace semtrack::bench
 
+/// Arguments: object, ego or all; number of problems; alone: without Ceres.
 int main(int argc, char** argv) {
     const bool object = argc < 2 || std::strcmp(argv[1], "ego") != 0;
     const bool ego = argc < 2 || std::strcmp(argv[1], "object") != 0;
-    semtrack::bench::run(object, ego, argc > 2 ? std::atoi(argv[2]) : 200);
+    const int count = argc > 2 ? std::atoi(argv[2]) : 200;
+    if (count < 1) {
+        return 1;
+    }
+    semtrack::bench::run(object, ego, count, argc < 4 || std::strcmp(argv[3], "alone") != 0);
     return 0;
 }

@@ -95,28 +95,36 @@ void ObjectFeatures::project(const ObjectState& state, FrameLanes& lanes) const 
     const double baseline = calibration_.baseline_m;
     FrameLanes& l = lanes;
     for (std::size_t p = 0; p < lane_count_; ++p) {
-        const double x_c = r00 * f_[0][p] + r01 * f_[1][p] + r02 * f_[2][p] + t0;
-        const double y_c = r10 * f_[0][p] + r11 * f_[1][p] + r12 * f_[2][p] + t1;
-        const double z_c = r20 * f_[0][p] + r21 * f_[1][p] + r22 * f_[2][p] + t2;
-        const double ahead = z_c >= kMinDepth_m ? 1.0 : 0.0;
-        const double inv_z = 1.0 / (z_c >= kMinDepth_m ? z_c : 1.0);
-        const double x = x_c * inv_z;
-        const double y = y_c * inv_z;
+        l.x[p] = r00 * f_[0][p] + r01 * f_[1][p] + r02 * f_[2][p] + t0;
+        l.y[p] = r10 * f_[0][p] + r11 * f_[1][p] + r12 * f_[2][p] + t1;
+        l.inv_z[p] = r20 * f_[0][p] + r21 * f_[1][p] + r22 * f_[2][p] + t2;
+        l.robust[p] = 1.0;
+    }
+    for (std::size_t p = 0; p < lane_count_; ++p) {
+        if (!(l.inv_z[p] >= kMinDepth_m)) {
+            l.inv_z[p] = 1.0;
+            l.robust[p] = 0.0;
+        }
+    }
+    for (std::size_t p = 0; p < lane_count_; ++p) {
+        const double inv_z = 1.0 / l.inv_z[p];
+        const double x = l.x[p] * inv_z;
+        const double y = l.y[p] * inv_z;
+        const double ahead = l.robust[p];
         const double w = ahead * l.weight[p];
         const double w_right = ahead * l.weight_right[p];
         const double r_u = w * (fx * x + cx - l.u[p]);
         const double r_v = w * (fy * y + cy - l.v[p]);
         const double r_right = w_right * (fx * (x - baseline * inv_z) + cx_right - l.u_right[p]);
+        const double r2 = r_u * r_u + r_v * r_v + r_right * r_right + (1.0 - ahead) * l.behind_cost[p];
         l.x[p] = x;
         l.y[p] = y;
         l.inv_z[p] = inv_z;
         l.r[0][p] = r_u;
         l.r[1][p] = r_v;
         l.r[2][p] = r_right;
-        const double r2 = r_u * r_u + r_v * r_v + r_right * r_right + (1.0 - ahead) * l.behind_cost[p];
         l.r2[p] = r2;
         l.rho[p] = r2;
-        l.robust[p] = ahead;
     }
 }
 

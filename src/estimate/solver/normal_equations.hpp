@@ -80,6 +80,8 @@ private:
     void invert_points(double lambda);
     [[nodiscard]] bool invert_point_damped(std::size_t p, double damping);
     [[nodiscard]] bool factor();
+    [[nodiscard]] bool factor_row(int k);
+    void subtract_rows(int k, int r, int end);
     [[nodiscard]] bool factor_undamped();
     void covariance_column(int row);
     template <std::size_t kCoupled>
@@ -109,8 +111,9 @@ private:
     std::array<double, kReducedSize> v_{};
     std::array<double, kReducedSize> s_{};  // reduced right-hand side
     std::array<double, kReducedSize> x_{};
-    std::array<int, kReducedSize> row_end_{};  // of the factor: behind it a row is zero
-    std::array<PointColumn, 6> C_{};           // 00 01 02 11 12 22, as in PointLanes
+    std::array<double, kReducedSize> diagonal_inverse_{};  // of the factor
+    std::array<int, kReducedSize> row_end_{};              // of the factor: behind it a row is zero
+    std::array<PointColumn, 6> C_{};                       // 00 01 02 11 12 22, as in PointLanes
     std::array<PointColumn, 6> C_inv_{};
     std::array<PointColumn, 3> w_{};
     std::array<bool, kSolverPoints> usable_{};

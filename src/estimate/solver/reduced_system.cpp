@@ -14,16 +14,45 @@ constexpr double kMinDeterminantRatio = 1e-14;
 // Damping of a point that is singular by itself (seen once by one camera): it must not hold its frame.
 constexpr double kPointDamping = 1e-7;
 
-/// S -= Y b: Y has kCoupled rows of E C^-1, b three rows of kCoupled columns; rows of S lie stride apart.
-template <std::size_t kCoupled, std::size_t kStride>
-inline void subtract_product(const std::array<double, 3 * kCoupled>& y, const double* __restrict b,
-                             double* __restrict S) {
+/// out = E C^-1, both as three rows of kCoupled columns (one row per coordinate of the point).
+template <std::size_t kCoupled>
+inline void times_inverse(const double* __restrict e, const std::array<double, 6>& c, double* __restrict out) {
+    for (std::size_t r = 0; r < kCoupled; ++r) {
+        out[r] = e[r] * c[0] + e[kCoupled + r] * c[1] + e[2 * kCoupled + r] * c[2];
+    }
+    for (std::size_t r = 0; r < kCoupled; ++r) {
+        out[kCoupled + r] = e[r] * c[1] + e[kCoupled + r] * c[3] + e[2 * kCoupled + r] * c[4];
+    }
+    for (std::size_t r = 0; r < kCoupled; ++r) {
+        out[2 * kCoupled + r] = e[r] * c[2] + e[kCoupled + r] * c[4] + e[2 * kCoupled + r] * c[5];
+    }
+}
+
+/// S -= Y^T E of three rows each; rows of S lie stride apart. kDiagonal: only the upper triangle is wanted.
+template <std::size_t kCoupled, std::size_t kStride, bool kDiagonal>
+inline void subtract_product(const double* __restrict y, const double* __restrict e, double* __restrict S) {
     for (std::size_t r = 0; r < kCoupled; ++r) {
         double* __restrict const row = S + r * kStride;
-        for (std::size_t c = 0; c < kCoupled; ++c) {
-            row[c] -= y[3 * r] * b[c] + y[3 * r + 1] * b[kCoupled + c] + y[3 * r + 2] * b[2 * kCoupled + c];
+        // Pairs of columns stay whole, for the two lanes of a vector.
+        for (std::size_t c = kDiagonal ? r / 2 * 2 : 0; c < kCoupled; ++c) {
+            row[c] -= y[r] * e[c] + y[kCoupled + r] * e[kCoupled + c] + y[2 * kCoupled + r] * e[2 * kCoupled + c];
         }
     }
+}
+
+/// Four sums side by side: the same order everywhere, and no chain of additions.
+inline double dot(const double* a, const double* b, std::size_t n) {
+    std::array<double, 4> s{};
+    std::size_t k = 0;
+    for (; k + 4 <= n; k += 4) {
+        for (std::size_t l = 0; l < 4; ++l) {
+            s[l] += a[k + l] * b[k + l];
+        }
+    }
+    for (; k < n; ++k) {
+        s[0] += a[k] * b[k];
+    }
+    return (s[0] + s[1]) + (s[2] + s[3]);
 }
 
 }  // namespace
@@ -60,36 +89,31 @@ void NormalEquations::invert_points(double lambda) {
 template <std::size_t kCoupled>
 void NormalEquations::reduce_point(int p) {
     const auto ip = static_cast<std::size_t>(p);
-    const double c00 = C_inv_[0][ip];
-    const double c01 = C_inv_[1][ip];
-    const double c02 = C_inv_[2][ip];
-    const double c11 = C_inv_[3][ip];
-    const double c12 = C_inv_[4][ip];
-    const double c22 = C_inv_[5][ip];
+    const auto begin = static_cast<std::size_t>(coupled_begin_);
+    const std::array<double, 6> c{C_inv_[0][ip], C_inv_[1][ip], C_inv_[2][ip],
+                                  C_inv_[3][ip], C_inv_[4][ip], C_inv_[5][ip]};
+    const double t0 = c[0] * w_[0][ip] + c[1] * w_[1][ip] + c[2] * w_[2][ip];  // C^-1 w
+    const double t1 = c[1] * w_[0][ip] + c[3] * w_[1][ip] + c[4] * w_[2][ip];
+    const double t2 = c[2] * w_[0][ip] + c[4] * w_[1][ip] + c[5] * w_[2][ip];
     const auto seen = static_cast<unsigned>(seen_[ip]);
     const double* const Et = &Et_[coupling_at(p, 0)];
-    const auto begin = static_cast<std::size_t>(coupled_begin_);
     constexpr std::size_t kBlock = kPointBlock * kCoupled;
     for (std::size_t i = 0; i < static_cast<std::size_t>(frames_); ++i) {
         if (((seen >> i) & 1U) == 0U) {
             continue;
         }
-        const double* const a = Et + kBlock * i;
-        std::array<double, kBlock> y{};  // E C^-1
-        double* const s = &s_[begin + kCoupled * i];
+        const double* __restrict const e = Et + kBlock * i;
+        double* __restrict const s = &s_[begin + kCoupled * i];
         for (std::size_t r = 0; r < kCoupled; ++r) {
-            const double e0 = a[r];
-            const double e1 = a[kCoupled + r];
-            const double e2 = a[2 * kCoupled + r];
-            y[3 * r] = e0 * c00 + e1 * c01 + e2 * c02;
-            y[3 * r + 1] = e0 * c01 + e1 * c11 + e2 * c12;
-            y[3 * r + 2] = e0 * c02 + e1 * c12 + e2 * c22;
-            s[r] -= y[3 * r] * w_[0][ip] + y[3 * r + 1] * w_[1][ip] + y[3 * r + 2] * w_[2][ip];
+            s[r] -= e[r] * t0 + e[kCoupled + r] * t1 + e[2 * kCoupled + r] * t2;
         }
+        std::array<double, kBlock> y{};  // E C^-1
+        times_inverse<kCoupled>(e, c, y.data());
         double* const rows = &S_[(begin + kCoupled * i) * kStride + begin];
-        for (std::size_t j = i; j < static_cast<std::size_t>(frames_); ++j) {
+        subtract_product<kCoupled, kStride, true>(y.data(), e, rows + kCoupled * i);
+        for (std::size_t j = i + 1; j < static_cast<std::size_t>(frames_); ++j) {
             if (((seen >> j) & 1U) != 0U) {
-                subtract_product<kCoupled, kStride>(y, Et + kBlock * j, rows + kCoupled * j);
+                subtract_product<kCoupled, kStride, false>(y.data(), Et + kBlock * j, rows + kCoupled * j);
             }
         }
     }
@@ -121,34 +145,62 @@ void NormalEquations::reduce(double lambda) {
     }
 }
 
-// Cholesky S = U^T U in the upper triangle, row by row, fixed order; zeros of a row are passed over.
+// Row k of the factor from row k of S, whose earlier rows are subtracted. false: no positive pivot.
+bool NormalEquations::factor_row(int k) {
+    const double scale = std::fabs(B(k, k)) > 0.0 ? std::fabs(B(k, k)) : 1.0;
+    const double pivot = S(k, k);
+    if (!(pivot > kMinPivotRatio * scale) || !std::isfinite(pivot)) {
+        return false;
+    }
+    double* const row = &S(k, 0);
+    row[k] = std::sqrt(pivot);
+    const double inverse = 1.0 / row[k];
+    int end = size_;
+    while (end > k + 1 && row[end - 1] == 0.0) {
+        --end;
+    }
+    for (int c = k + 1; c < end; ++c) {
+        row[c] *= inverse;
+    }
+    row_end_[static_cast<std::size_t>(k)] = end;
+    diagonal_inverse_[static_cast<std::size_t>(k)] = inverse;
+    return true;
+}
+
+// Row r minus the shares of rows k and k + 1, which end at or before end.
+void NormalEquations::subtract_rows(int k, int r, int end) {
+    const double* __restrict const first = &S(k, 0);
+    const double* __restrict const second = &S(k + 1, 0);
+    double* __restrict const row = &S(r, 0);
+    const double f = first[r];
+    const double g = second[r];
+    for (int c = r; c < end; ++c) {
+        row[c] = row[c] - f * first[c] - g * second[c];
+    }
+}
+
+// Cholesky S = U^T U in the upper triangle, two rows at a time, fixed order; what is zero at a row's end is left out.
 bool NormalEquations::factor() {
-    for (int k = 0; k < size_; ++k) {
-        const double scale = std::fabs(B(k, k)) > 0.0 ? std::fabs(B(k, k)) : 1.0;
-        const double pivot = S(k, k);
-        if (!(pivot > kMinPivotRatio * scale) || !std::isfinite(pivot)) {
+    for (int k = 0; k < size_; k += 2) {
+        if (!factor_row(k)) {
             return false;
         }
-        const double root = std::sqrt(pivot);
-        const double inverse = 1.0 / root;
-        double* __restrict const row = &S(k, 0);
-        row[k] = root;
-        int end = size_;
-        while (end > k + 1 && row[end - 1] == 0.0) {
-            --end;
+        if (k + 1 == size_) {
+            break;
         }
-        row_end_[static_cast<std::size_t>(k)] = end;
-        for (int c = k + 1; c < end; ++c) {
-            row[c] *= inverse;
+        const int first_end = row_end_[static_cast<std::size_t>(k)];
+        const double f = S(k, k + 1);
+        for (int c = k + 1; c < first_end; ++c) {
+            S(k + 1, c) -= f * S(k, c);
         }
-        for (int r = k + 1; r < end; ++r) {
-            const double f = row[r];
-            if (f == 0.0) {
-                continue;
-            }
-            double* __restrict const below = &S(r, 0);
-            for (int c = r; c < end; ++c) {
-                below[c] -= f * row[c];
+        if (!factor_row(k + 1)) {
+            return false;
+        }
+        const int second_end = row_end_[static_cast<std::size_t>(k + 1)];
+        const int end = first_end > second_end ? first_end : second_end;
+        for (int r = k + 2; r < end; ++r) {
+            if (S(k, r) != 0.0 || S(k + 1, r) != 0.0) {
+                subtract_rows(k, r, end);
             }
         }
     }
@@ -159,21 +211,18 @@ bool NormalEquations::factor() {
 void NormalEquations::substitute(std::array<double, kReducedSize>& x) {
     for (int r = 0; r < size_; ++r) {
         const auto ir = static_cast<std::size_t>(r);
-        const double y = x[ir] / S(r, r);
+        const double y = x[ir] * diagonal_inverse_[ir];
         x[ir] = y;
-        const double* const row = &S(r, 0);
+        const double* __restrict const row = &S(r, 0);
+        double* __restrict const rest = x.data();
         for (int c = r + 1; c < row_end_[ir]; ++c) {
-            x[static_cast<std::size_t>(c)] -= row[c] * y;
+            rest[c] -= row[c] * y;
         }
     }
     for (int r = size_ - 1; r >= 0; --r) {
         const auto ir = static_cast<std::size_t>(r);
-        double y = x[ir];
-        const double* const row = &S(r, 0);
-        for (int c = r + 1; c < row_end_[ir]; ++c) {
-            y -= row[c] * x[static_cast<std::size_t>(c)];
-        }
-        x[ir] = y / row[r];
+        const std::size_t n = static_cast<std::size_t>(row_end_[ir] - r) - 1U;
+        x[ir] = (x[ir] - dot(&S_[ir * kStride + ir + 1U], x.data() + ir + 1U, n)) * diagonal_inverse_[ir];
     }
 }
 
@@ -220,17 +269,24 @@ void NormalEquations::substitute_points(SolverStep& step) const {
         if (!usable_[ip]) {
             continue;
         }
-        std::array<double, kPointBlock> rhs{w_[0][ip], w_[1][ip], w_[2][ip]};
+        // Every column is summed on its own, over the frames: no chain of additions.
+        std::array<double, kPointBlock * kCoupled> sums{};
         for (int i = 0; i < frames_; ++i) {
             if (((static_cast<unsigned>(seen_[ip]) >> static_cast<unsigned>(i)) & 1U) == 0U) {
                 continue;
             }
-            const double* const a = &Et_[coupling_at(p, i)];
+            const double* const e = &Et_[coupling_at(p, i)];
             const double* const y = &x_[static_cast<std::size_t>(coupled_begin_ + coupled_ * i)];
             for (std::size_t k = 0; k < kPointBlock; ++k) {
                 for (std::size_t c = 0; c < kCoupled; ++c) {
-                    rhs[k] += a[kCoupled * k + c] * y[c];
+                    sums[kCoupled * k + c] += e[kCoupled * k + c] * y[c];
                 }
+            }
+        }
+        std::array<double, kPointBlock> rhs{w_[0][ip], w_[1][ip], w_[2][ip]};
+        for (std::size_t k = 0; k < kPointBlock; ++k) {
+            for (std::size_t c = 0; c < kCoupled; ++c) {
+                rhs[k] += sums[kCoupled * k + c];
             }
         }
         step.point[ip] = -Vec3(C_inv_[0][ip] * rhs[0] + C_inv_[1][ip] * rhs[1] + C_inv_[2][ip] * rhs[2],

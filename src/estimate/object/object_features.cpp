@@ -4,10 +4,100 @@
 
 #include "estimate/object/object_weights.hpp"
 #include "math/camera.hpp"
+#include "math/double2.hpp"
 #include "math/trig.hpp"
 #include "model/class_prior.hpp"
 
 namespace semtrack {
+
+namespace {
+
+/// Two lanes of an observation at the state.
+struct Observed {
+    Double2 x, y, inv_z, r0, r1, r2, weight, weight_right, robust;
+};
+
+/// M = R^T J_x^T W J_x R and b = R^T J_x^T W r of two observations, in L (R = R_c_l).
+struct Information {
+    Double2 m00, m01, m02, m11, m12, m22, b0, b1, b2;
+};
+
+// J_x R has the rows (w f / z) (R_row - slope R_2): their weighted squares make M.
+inline Information information(const Calibration& calibration, const Mat3& R, const Observed& o) {
+    const Double2 gx = o.weight * calibration.left.fx * o.inv_z;
+    const Double2 gy = o.weight * calibration.left.fy * o.inv_z;
+    const Double2 gr = o.weight_right * calibration.left.fx * o.inv_z;
+    const Double2 x_right = o.x - calibration.baseline_m * o.inv_z;
+    const Double2 a0 = gx * (R(0, 0) - o.x * R(2, 0));
+    const Double2 a1 = gx * (R(0, 1) - o.x * R(2, 1));
+    const Double2 a2 = gx * (R(0, 2) - o.x * R(2, 2));
+    const Double2 b0 = gy * (R(1, 0) - o.y * R(2, 0));
+    const Double2 b1 = gy * (R(1, 1) - o.y * R(2, 1));
+    const Double2 b2 = gy * (R(1, 2) - o.y * R(2, 2));
+    const Double2 c0 = gr * (R(0, 0) - x_right * R(2, 0));
+    const Double2 c1 = gr * (R(0, 1) - x_right * R(2, 1));
+    const Double2 c2 = gr * (R(0, 2) - x_right * R(2, 2));
+    const Double2 s = o.robust;
+    return {s * (a0 * a0 + b0 * b0 + c0 * c0),       s * (a0 * a1 + b0 * b1 + c0 * c1),
+            s * (a0 * a2 + b0 * b2 + c0 * c2),       s * (a1 * a1 + b1 * b1 + c1 * c1),
+            s * (a1 * a2 + b1 * b2 + c1 * c2),       s * (a2 * a2 + b2 * b2 + c2 * c2),
+            s * (a0 * o.r0 + b0 * o.r1 + c0 * o.r2), s * (a1 * o.r0 + b1 * o.r1 + c1 * o.r2),
+            s * (a2 * o.r0 + b2 * o.r1 + c2 * o.r2)};
+}
+
+/// Sums over the points of a frame, two lanes apart until the end: the frame's own block.
+struct FrameSums {
+    Information i{};
+    Double2 q0{}, q1{}, q2{}, h{}, b_theta{};
+
+    void add(const Information& x, const Double2& x_q0, const Double2& x_q1, const Double2& x_q2, const Double2& x_h,
+             const Double2& x_b) {
+        i.m00 += x.m00;
+        i.m01 += x.m01;
+        i.m02 += x.m02;
+        i.m11 += x.m11;
+        i.m12 += x.m12;
+        i.m22 += x.m22;
+        i.b0 += x.b0;
+        i.b1 += x.b1;
+        i.b2 += x.b2;
+        q0 += x_q0;
+        q1 += x_q1;
+        q2 += x_q2;
+        h += x_h;
+        b_theta += x_b;
+    }
+    void add_to(NormalEquations& system, int k) const {
+        Mat6 H = Mat6::Zero();
+        H(0, 0) = sum2(i.m00);
+        H(0, 1) = sum2(i.m01);
+        H(0, 2) = sum2(i.m02);
+        H(1, 1) = sum2(i.m11);
+        H(1, 2) = sum2(i.m12);
+        H(2, 2) = sum2(i.m22);
+        H(0, 3) = sum2(q0);
+        H(1, 3) = sum2(q1);
+        H(2, 3) = sum2(q2);
+        H(3, 3) = sum2(h);
+        Vec6 g = Vec6::Zero();
+        g(0) = sum2(i.b0);
+        g(1) = sum2(i.b1);
+        g(2) = sum2(i.b2);
+        g(3) = sum2(b_theta);
+        system.add_frame(k, H, g);
+    }
+};
+
+/// Four sums of two lanes each: no chain of additions. n: even.
+double sum_lanes(const Lane& a, std::size_t n) {
+    std::array<Double2, 4> s{};
+    for (std::size_t p = 0; p < n; p += kDouble2) {
+        s[p / kDouble2 % 4] += load2(&a[p]);
+    }
+    return sum2((s[0] + s[1]) + (s[2] + s[3]));
+}
+
+}  // namespace
 
 void ObjectFeatures::begin(const ObjectWindow& window, const Calibration& calibration, bool enabled) {
     calibration_ = calibration;
@@ -43,7 +133,6 @@ void ObjectFeatures::gather_frame(const ObjectFrame& frame, FrameLanes& lanes) c
             frame.features[lane_used ? static_cast<std::size_t>(slot_of_point_[p]) : std::size_t{0}];
         const bool seen = lane_used && o.valid;
         lanes.seen_any = lanes.seen_any || seen;
-        lanes.seen[p] = seen;
         lanes.behind_cost[p] = seen ? -1.0 : 0.0;
         lanes.u[p] = seen ? static_cast<double>(o.u) : 0.0;
         lanes.v[p] = seen ? static_cast<double>(o.v) : 0.0;
@@ -144,114 +233,67 @@ double ObjectFeatures::robust_cost(FrameLanes& lanes) const {
     return 0.5 * sum_lanes(lanes.rho, lane_count_);
 }
 
-// J_x R_c_l has the rows (w f / z) (R_row - slope R_2): three rows, whose weighted squares make M.
-void ObjectFeatures::information(const FrameLanes& lanes) {
-    const Mat3& R = lanes.R_c_l;
-    const double r00 = R(0, 0), r01 = R(0, 1), r02 = R(0, 2);
-    const double r10 = R(1, 0), r11 = R(1, 1), r12 = R(1, 2);
-    const double r20 = R(2, 0), r21 = R(2, 1), r22 = R(2, 2);
-    const double fx = calibration_.left.fx;
-    const double fy = calibration_.left.fy;
-    const double baseline = calibration_.baseline_m;
-    const FrameLanes& l = lanes;
-    Information& o = information_;
-    for (std::size_t p = 0; p < lane_count_; ++p) {
-        const double gx = l.weight[p] * fx * l.inv_z[p];
-        const double gy = l.weight[p] * fy * l.inv_z[p];
-        const double gr = l.weight_right[p] * fx * l.inv_z[p];
-        const double x = l.x[p];
-        const double y = l.y[p];
-        const double x_right = x - baseline * l.inv_z[p];
-        const double a0 = gx * (r00 - x * r20), a1 = gx * (r01 - x * r21), a2 = gx * (r02 - x * r22);
-        const double b0 = gy * (r10 - y * r20), b1 = gy * (r11 - y * r21), b2 = gy * (r12 - y * r22);
-        const double c0 = gr * (r00 - x_right * r20), c1 = gr * (r01 - x_right * r21), c2 = gr * (r02 - x_right * r22);
-        const double s = l.robust[p];
-        o.M[0][p] = s * (a0 * a0 + b0 * b0 + c0 * c0);
-        o.M[1][p] = s * (a0 * a1 + b0 * b1 + c0 * c1);
-        o.M[2][p] = s * (a0 * a2 + b0 * b2 + c0 * c2);
-        o.M[3][p] = s * (a1 * a1 + b1 * b1 + c1 * c1);
-        o.M[4][p] = s * (a1 * a2 + b1 * b2 + c1 * c2);
-        o.M[5][p] = s * (a2 * a2 + b2 * b2 + c2 * c2);
-        o.b[0][p] = s * (a0 * l.r[0][p] + b0 * l.r[1][p] + c0 * l.r[2][p]);
-        o.b[1][p] = s * (a1 * l.r[0][p] + b1 * l.r[1][p] + c1 * l.r[2][p]);
-        o.b[2][p] = s * (a2 * l.r[0][p] + b2 * l.r[1][p] + c2 * l.r[2][p]);
-    }
-}
-
-// E^T = R_z^T M [I, g] and C = R_z^T M R_z: turns of two columns and two rows.
-void ObjectFeatures::turn_to_object(const FrameLanes& lanes) {
-    const double c = lanes.cos;
-    const double s = lanes.sin;
+void ObjectFeatures::add_frame(int k, NormalEquations& system) const {
+    constexpr std::size_t kStride = kCouplingStride<Coupling::kPlanar>;
+    const FrameLanes& lanes = frame_lanes_[static_cast<std::size_t>(k)];
+    const FramePoints out = system.open_frame(k);
+    FrameSums sums;
     const double turns = has_heading_ ? 1.0 : 0.0;
-    const std::array<Lane, 6>& M = information_.M;
-    const std::array<Lane, 3>& b = information_.b;
-    Information& o = information_;
-    for (std::size_t p = 0; p < lane_count_; ++p) {
-        const double m00 = M[0][p], m01 = M[1][p], m02 = M[2][p], m11 = M[3][p], m12 = M[4][p], m22 = M[5][p];
-        const double g0 = -turns * (s * f_[0][p] + c * f_[1][p]);
-        const double g1 = turns * (c * f_[0][p] - s * f_[1][p]);
-        const double q0 = m00 * g0 + m01 * g1;
-        const double q1 = m01 * g0 + m11 * g1;
-        const double q2 = m02 * g0 + m12 * g1;
-        o.theta[0][p] = q0;
-        o.theta[1][p] = q1;
-        o.theta[2][p] = q2;
-        o.theta[3][p] = g0 * q0 + g1 * q1;
-        o.theta[4][p] = g0 * b[0][p] + g1 * b[1][p];
-        const double e00 = c * m00 + s * m01, e01 = c * m01 + s * m11, e02 = c * m02 + s * m12;
-        const double e10 = c * m01 - s * m00, e11 = c * m11 - s * m01, e12 = c * m12 - s * m02;
-        out_.Et[0][p] = e00;
-        out_.Et[1][p] = e01;
-        out_.Et[2][p] = e02;
-        out_.Et[3][p] = c * q0 + s * q1;
-        out_.Et[4][p] = e10;
-        out_.Et[5][p] = e11;
-        out_.Et[6][p] = e12;
-        out_.Et[7][p] = c * q1 - s * q0;
-        out_.Et[8][p] = m02;
-        out_.Et[9][p] = m12;
-        out_.Et[10][p] = m22;
-        out_.Et[11][p] = q2;
-        out_.C[0][p] = c * e00 + s * e01;
-        out_.C[1][p] = c * e01 - s * e00;
-        out_.C[2][p] = e02;
-        out_.C[3][p] = c * e11 - s * e10;
-        out_.C[4][p] = e12;
-        out_.C[5][p] = m22;
-        out_.w[0][p] = c * b[0][p] + s * b[1][p];
-        out_.w[1][p] = c * b[1][p] - s * b[0][p];
-        out_.w[2][p] = b[2][p];
+    const double cos = lanes.cos;
+    const double sin = lanes.sin;
+    for (std::size_t p = 0; p < lane_count_; p += kDouble2) {
+        const Information i =
+            information(calibration_, lanes.R_c_l,
+                        {load2(&lanes.x[p]), load2(&lanes.y[p]), load2(&lanes.inv_z[p]), load2(&lanes.r[0][p]),
+                         load2(&lanes.r[1][p]), load2(&lanes.r[2][p]), load2(&lanes.weight[p]),
+                         load2(&lanes.weight_right[p]), load2(&lanes.robust[p])});
+        const Double2 f0 = load2(&f_[0][p]);
+        const Double2 f1 = load2(&f_[1][p]);
+        // By theta: g = R_z (z x f), whose third entry is 0, and q = M g.
+        const Double2 g0 = -turns * (sin * f0 + cos * f1);
+        const Double2 g1 = turns * (cos * f0 - sin * f1);
+        const Double2 q0 = i.m00 * g0 + i.m01 * g1;
+        const Double2 q1 = i.m01 * g0 + i.m11 * g1;
+        const Double2 q2 = i.m02 * g0 + i.m12 * g1;
+        sums.add(i, q0, q1, q2, g0 * q0 + g1 * q1, g0 * i.b0 + g1 * i.b1);
+        // E^T = R_z^T M [I, g], C = R_z^T M R_z: two rows and two columns are turned.
+        const Double2 e00 = cos * i.m00 + sin * i.m01;
+        const Double2 e01 = cos * i.m01 + sin * i.m11;
+        const Double2 e02 = cos * i.m02 + sin * i.m12;
+        const Double2 e10 = cos * i.m01 - sin * i.m00;
+        const Double2 e11 = cos * i.m11 - sin * i.m01;
+        const Double2 e12 = cos * i.m12 - sin * i.m02;
+        double* const Et = out.Et + p;
+        store2(Et, e00);
+        store2(Et + kStride, e01);
+        store2(Et + 2 * kStride, e02);
+        store2(Et + 3 * kStride, cos * q0 + sin * q1);
+        store2(Et + 4 * kStride, e10);
+        store2(Et + 5 * kStride, e11);
+        store2(Et + 6 * kStride, e12);
+        store2(Et + 7 * kStride, cos * q1 - sin * q0);
+        store2(Et + 8 * kStride, i.m02);
+        store2(Et + 9 * kStride, i.m12);
+        store2(Et + 10 * kStride, i.m22);
+        store2(Et + 11 * kStride, q2);
+        add2(&out.C[0][p], cos * e00 + sin * e01);
+        add2(&out.C[1][p], cos * e01 - sin * e00);
+        add2(&out.C[2][p], e02);
+        add2(&out.C[3][p], cos * e11 - sin * e10);
+        add2(&out.C[4][p], e12);
+        add2(&out.C[5][p], i.m22);
+        add2(&out.w[0][p], cos * i.b0 + sin * i.b1);
+        add2(&out.w[1][p], cos * i.b1 - sin * i.b0);
+        add2(&out.w[2][p], i.b2);
     }
+    sums.add_to(system, k);
 }
 
-void ObjectFeatures::add_frame_sums(int k, NormalEquations& system) const {
-    const Information& o = information_;
-    Mat6 H = Mat6::Zero();
-    Vec6 g = Vec6::Zero();
-    std::size_t at = 0;
-    for (int r = 0; r < 3; ++r) {
-        for (int c = r; c < 3; ++c) {
-            H(r, c) = sum_lanes(o.M[at++], lane_count_);
-        }
-        H(r, 3) = sum_lanes(o.theta[static_cast<std::size_t>(r)], lane_count_);
-        g(r) = sum_lanes(o.b[static_cast<std::size_t>(r)], lane_count_);
-    }
-    H(3, 3) = sum_lanes(o.theta[3], lane_count_);
-    g(3) = sum_lanes(o.theta[4], lane_count_);
-    system.add_frame(k, H, g);
-}
-
-void ObjectFeatures::add_to(NormalEquations& system) {
+void ObjectFeatures::add_to(NormalEquations& system) const {
     for (int k = 0; k < frames_; ++k) {
-        const FrameLanes& lanes = frame_lanes_[static_cast<std::size_t>(k)];
-        if (!lanes.seen_any) {
-            continue;
+        if (frame_lanes_[static_cast<std::size_t>(k)].seen_any) {
+            add_frame(k, system);
         }
-        information(lanes);
-        turn_to_object(lanes);
-        out_.seen = lanes.seen;
-        add_frame_sums(k, system);
-        system.add_points(k, 0, points_, out_);
     }
 }
 

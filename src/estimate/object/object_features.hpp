@@ -12,6 +12,8 @@
 
 namespace semtrack {
 
+using Lane = std::array<double, static_cast<std::size_t>(kMaxObjectFeatures)>;
+
 class ObjectFeatures {
 public:
     /// Landmarks of the window that two frames or more saw become the points. enabled = false: there are none.
@@ -23,7 +25,7 @@ public:
     /// 0.5 sum of robustified squares at x; keeps what add_to() needs.
     [[nodiscard]] double evaluate(const ObjectVariables& x);
     /// Adds the points' share of the normal equations at the x of the last evaluate().
-    void add_to(NormalEquations& system);
+    void add_to(NormalEquations& system) const;
 
 private:
     /// One frame: what was measured, and projection, residuals and robust weight at the last x.
@@ -33,7 +35,6 @@ private:
         Vec3 t_c_l{Vec3::Zero()};
         double cos{1};
         double sin{0};
-        std::array<bool, static_cast<std::size_t>(kPointLanes)> seen{};
         Lane u{};
         Lane v{};
         Lane u_right{};
@@ -48,20 +49,10 @@ private:
         Lane rho{};
         Lane robust{};
     };
-    /// Information of the observations of one frame in L: M = R^T J_x^T W J_x R and b = R^T J_x^T W r.
-    struct Information {
-        std::array<Lane, 6> M{};  // 00 01 02 11 12 22
-        std::array<Lane, 3> b{};
-        std::array<Lane, 2> g{};      // by theta: R_z (z x f), whose third entry is 0
-        std::array<Lane, 5> theta{};  // M g (3), g^T M g, g^T b
-    };
-
     void gather_frame(const ObjectFrame& frame, FrameLanes& lanes) const;
     void project(const ObjectState& state, FrameLanes& lanes) const;
     [[nodiscard]] double robust_cost(FrameLanes& lanes) const;
-    void information(const FrameLanes& lanes);
-    void turn_to_object(const FrameLanes& lanes);
-    void add_frame_sums(int k, NormalEquations& system) const;
+    void add_frame(int k, NormalEquations& system) const;
 
     Calibration calibration_{};
     bool has_heading_{true};
@@ -71,8 +62,6 @@ private:
     std::array<std::int16_t, kMaxObjectFeatures> slot_of_point_{};
     std::array<Lane, 3> f_{};
     std::array<FrameLanes, kObjectWindow> frame_lanes_{};
-    Information information_{};
-    PointLanes out_{};
 };
 
 }  // namespace semtrack

@@ -1,13 +1,20 @@
 #include "estimate/solver/normal_equations.hpp"
 
+#include <cstring>
+
 namespace semtrack {
 
 void NormalEquations::clear(int frames, int points, bool shared, Coupling coupling) {
     frames_ = frames < kSolverFrames ? frames : kSolverFrames;
-    points_ = points < kSolverPoints ? points : kSolverPoints;
+    const bool planar = coupling == Coupling::kPlanar;
+    const int most_points = planar ? kMaxObjectFeatures : kSolverPoints;
+    points_ = points < most_points ? points : most_points;
+    lanes_ = padded_lanes(points_);
     shared_ = shared;
     coupled_ = static_cast<int>(coupling);
     coupled_begin_ = (kFrameBlock - coupled_) * frames_;
+    coupling_stride_ = planar ? kCouplingStride<Coupling::kPlanar> : kCouplingStride<Coupling::kPose>;
+    seeing_ = 0;
     size_ = kFrameBlock * frames_ + (shared ? kSharedBlock : 0);
     factored_ = false;
     for (int r = 0; r < size_; ++r) {
@@ -16,18 +23,11 @@ void NormalEquations::clear(int frames, int points, bool shared, Coupling coupli
         }
         v_[static_cast<std::size_t>(r)] = 0.0;
     }
-    for (PointColumn& column : C_) {
-        for (int p = 0; p < points_; ++p) {
-            column[static_cast<std::size_t>(p)] = 0.0;
-        }
+    for (PointRow& row : C_) {
+        std::memset(row.data(), 0, lanes_ * sizeof(double));
     }
-    for (PointColumn& column : w_) {
-        for (int p = 0; p < points_; ++p) {
-            column[static_cast<std::size_t>(p)] = 0.0;
-        }
-    }
-    for (int p = 0; p < points_; ++p) {
-        seen_[static_cast<std::size_t>(p)] = 0;
+    for (PointRow& row : w_) {
+        std::memset(row.data(), 0, lanes_ * sizeof(double));
     }
 }
 
@@ -85,58 +85,29 @@ void NormalEquations::add_point(int p, const Mat3& H, const Vec3& g) {
 }
 
 void NormalEquations::add_frame_point(int i, int p, const Mat6x3& H_ip) {
+    if (!sees_points(i)) {
+        double* const Et = open_frame(i).Et;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(kPointBlock * coupled_) * coupling_stride_; ++k) {
+            Et[k] = 0.0;
+        }
+    }
     factored_ = false;
-    const auto bit = static_cast<std::uint16_t>(1U << static_cast<unsigned>(i));
-    std::uint16_t& seen = seen_[static_cast<std::size_t>(p)];
-    const bool first = (seen & bit) == 0U;
-    seen = static_cast<std::uint16_t>(seen | bit);
-    std::size_t at = coupling_at(p, i);
     for (int k = 0; k < kPointBlock; ++k) {
-        for (int c = 0; c < coupled_; ++c, ++at) {
-            Et_[at] = first ? H_ip(c, k) : Et_[at] + H_ip(c, k);
+        for (int c = 0; c < coupled_; ++c) {
+            Et_[coupling_at(i, k, c) + static_cast<std::size_t>(p)] += H_ip(c, k);
         }
     }
 }
 
-template <std::size_t kCoupled>
-void NormalEquations::add_couplings(int i, int first, int count, const PointLanes& lanes) {
-    const auto bit = static_cast<std::uint16_t>(1U << static_cast<unsigned>(i));
-    for (int l = 0; l < count; ++l) {
-        const auto lane = static_cast<std::size_t>(l);
-        if (!lanes.seen[lane]) {
-            continue;
-        }
-        std::uint16_t& seen = seen_[static_cast<std::size_t>(first + l)];
-        seen = static_cast<std::uint16_t>(seen | bit);
-        double* const out = &Et_[coupling_at(first + l, i)];
-        for (std::size_t k = 0; k < kPointBlock * kCoupled; ++k) {
-            out[k] = lanes.Et[k][lane];
-        }
-    }
-}
-
-void NormalEquations::add_points(int i, int first, int count, const PointLanes& lanes) {
+FramePoints NormalEquations::open_frame(int i) {
     factored_ = false;
-    const auto at = static_cast<std::size_t>(first);
-    const auto lane_count = static_cast<std::size_t>(count);
-    for (std::size_t k = 0; k < lanes.C.size(); ++k) {
-        for (std::size_t l = 0; l < lane_count; ++l) {
-            C_[k][at + l] += lanes.C[k][l];
-        }
-    }
-    for (std::size_t k = 0; k < lanes.w.size(); ++k) {
-        for (std::size_t l = 0; l < lane_count; ++l) {
-            w_[k][at + l] += lanes.w[k][l];
-        }
-    }
-    if (i < 0) {
-        return;
-    }
-    if (coupled_ == static_cast<int>(Coupling::kPlanar)) {
-        add_couplings<static_cast<std::size_t>(Coupling::kPlanar)>(i, first, count, lanes);
-    } else {
-        add_couplings<static_cast<std::size_t>(Coupling::kPose)>(i, first, count, lanes);
-    }
+    seeing_ = static_cast<std::uint16_t>(static_cast<unsigned>(seeing_) | (1U << static_cast<unsigned>(i)));
+    return {C_, w_, &Et_[coupling_at(i, 0, 0)]};
+}
+
+FramePoints NormalEquations::open_held_frame() {
+    factored_ = false;
+    return {C_, w_, nullptr};
 }
 
 }  // namespace semtrack

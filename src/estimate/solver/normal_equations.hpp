@@ -18,20 +18,10 @@
 
 namespace semtrack {
 
-inline constexpr int kFrameBlock = 6;
-inline constexpr int kSharedBlock = 3;
-inline constexpr int kPointBlock = 3;
 inline constexpr int kSolverFrames = kObjectWindow > kEgoWindow + 1 ? kObjectWindow : kEgoWindow + 1;
-inline constexpr int kSolverPoints = kMaxBackgroundFeatures;
 inline constexpr int kReducedSize = kFrameBlock * kSolverFrames + kSharedBlock;
 static_assert(kMaxObjectFeatures <= kSolverPoints, "one workspace serves both problems");
-static_assert(kSolverFrames <= 16, "a bit per frame says which points it saw");
-
-/// Columns of a frame that its points couple to.
-enum class Coupling : std::uint8_t {
-    kPose = 6,    ///< all
-    kPlanar = 4,  ///< the leading four: (p, theta) of an object
-};
+static_assert(kSolverFrames <= 16, "a bit per frame says whether it saw points");
 
 /// Update of every block, in the order of the problem's indices.
 struct SolverStep {
@@ -39,6 +29,10 @@ struct SolverStep {
     Vec3 shared{Vec3::Zero()};
     std::array<Vec3, kSolverPoints> point{};
 };
+
+/// Room for E^T of the larger problem: the poses'.
+inline constexpr std::size_t kCouplings =
+    static_cast<std::size_t>(kSolverFrames * kPointBlock * kFrameBlock) * kPointStride;
 
 class NormalEquations {
 public:
@@ -50,15 +44,17 @@ public:
     void add_shared(const Mat3& H, const Vec3& g);
     void add_frame_shared(int i, const Mat6x3& H_is);
     void add_point(int p, const Mat3& H, const Vec3& g);
-    /// Rows behind the coupled columns are not read. At most once per (i, p) is cheapest; adds up.
+    /// One observation; rows behind the coupled columns are not read. Adds up.
     void add_frame_point(int i, int p, const Mat6x3& H_ip);
-    /// Points first .. first + count - 1 as frame i saw them; once per (i, p). i < 0: the frame is held, only C and w.
-    void add_points(int i, int first, int count, const PointLanes& lanes);
+    /// All points of a frame at once: where to write them. Frame i must not have couplings yet.
+    [[nodiscard]] FramePoints open_frame(int i);
+    /// The same for a frame that is held: Et is null.
+    [[nodiscard]] FramePoints open_held_frame();
 
     /// One damped step: (H + lambda diag(H)) step = -g. kNotObservable: the reduced matrix is not positive definite
     /// (raise lambda), or an entry is not finite; step is then untouched. A point whose C is singular is damped on its
     /// own, so that it does not pass for a known one; a point without measurements gets a zero step.
-    /// Cost O(points frames^2 + (6 frames)^3), no allocation.
+    /// Cost O(points frames^2 + (6 frames)^3), whatever the frames saw; no allocation.
     Status solve(double lambda, SolverStep& step);
 
     /// Covariance of frame i (the 6x6 block of S^-1 without damping). kNotObservable as above.
@@ -67,25 +63,24 @@ public:
     Status shared_covariance(Mat3& out);
 
 private:
-    using PointColumn = std::array<double, static_cast<std::size_t>(kSolverPoints)>;
     static constexpr int kStride = kReducedSize + 1;  // even: rows start at an even address
 
     void reduce(double lambda);
-    template <std::size_t kCoupled>
-    void reduce_points();
-    template <std::size_t kCoupled>
-    void reduce_point(int p);
-    template <std::size_t kCoupled>
-    void add_couplings(int i, int first, int count, const PointLanes& lanes);
+    template <Coupling kCoupling>
+    void eliminate_points();
+    template <Coupling kCoupling>
+    void weigh_couplings(int i);
+    template <Coupling kCoupling>
+    void subtract_block(int i, int j);
+    template <Coupling kCoupling>
+    void substitute_points();
     void invert_points(double lambda);
-    [[nodiscard]] bool invert_point_damped(std::size_t p, double damping);
+    [[nodiscard]] bool invert_point(std::size_t p, double damping);
     [[nodiscard]] bool factor();
     [[nodiscard]] bool factor_row(int k);
     void subtract_rows(int k, int r, int end);
     [[nodiscard]] bool factor_undamped();
     void covariance_column(int row);
-    template <std::size_t kCoupled>
-    void substitute_points(SolverStep& step) const;
     void substitute(std::array<double, kReducedSize>& x);
     /// Row of column c of frame i, and of the shared block.
     [[nodiscard]] int row_of(int i, int c) const {
@@ -96,8 +91,14 @@ private:
     /// The upper triangle's entry of (r, c).
     [[nodiscard]] double& B_upper(int r, int c) { return r < c ? B(r, c) : B(c, r); }
     [[nodiscard]] double& S(int r, int c) { return S_[static_cast<std::size_t>(r * kStride + c)]; }
-    [[nodiscard]] std::size_t coupling_at(int p, int i) const {
-        return static_cast<std::size_t>((p * kSolverFrames + i) * kPointBlock * coupled_);
+    /// Row (k, c) of E^T of frame i: coordinate k of the point, column c of the frame.
+    [[nodiscard]] std::size_t coupling_at(int i, int k, int c) const {
+        return (static_cast<std::size_t>(i * kPointBlock + k) * static_cast<std::size_t>(coupled_) +
+                static_cast<std::size_t>(c)) *
+               coupling_stride_;
+    }
+    [[nodiscard]] bool sees_points(int i) const {
+        return ((static_cast<unsigned>(seeing_) >> static_cast<unsigned>(i)) & 1U) != 0U;
     }
 
     int frames_{0};
@@ -105,6 +106,8 @@ private:
     bool shared_{false};
     int coupled_{kFrameBlock};
     int coupled_begin_{0};
+    std::size_t coupling_stride_{kPointStride};
+    std::size_t lanes_{0};
     int size_{0};                                     // 6 frames + 3 shared
     std::array<double, kReducedSize * kStride> B_{};  // upper triangle, row by row
     std::array<double, kReducedSize * kStride> S_{};  // reduced matrix, then its factor
@@ -113,14 +116,14 @@ private:
     std::array<double, kReducedSize> x_{};
     std::array<double, kReducedSize> diagonal_inverse_{};  // of the factor
     std::array<int, kReducedSize> row_end_{};              // of the factor: behind it a row is zero
-    std::array<PointColumn, 6> C_{};                       // 00 01 02 11 12 22, as in PointLanes
-    std::array<PointColumn, 6> C_inv_{};
-    std::array<PointColumn, 3> w_{};
-    std::array<bool, kSolverPoints> usable_{};
-    std::array<std::uint16_t, kSolverPoints> seen_{};  // bit i: frame i saw the point
-    // E^T: per (p, i) three rows (one per coordinate of the point) of the coupled columns.
-    std::array<double, static_cast<std::size_t>(kSolverPoints) * kSolverFrames * kPointBlock * kFrameBlock> Et_{};
-    bool factored_{false};  // S holds the factor of the undamped system
+    std::array<PointRow, 6> C_{};                          // 00 01 02 11 12 22
+    std::array<PointRow, 6> C_inv_{};                      // zero: the point keeps its place
+    std::array<PointRow, 3> w_{};
+    std::array<PointRow, 3> z_{};                // C^-1 w, then the points' steps
+    std::array<PointRow, 3 * kFrameBlock> Y_{};  // E C^-1 of one frame, transposed as Et_
+    std::array<double, kCouplings> Et_{};        // frame by frame
+    std::uint16_t seeing_{0};                    // bit i: frame i has couplings
+    bool factored_{false};                       // S holds the factor of the undamped system
 };
 
 }  // namespace semtrack

@@ -1,7 +1,9 @@
 // Elimination of the points, factorisation of what is left, back substitution.
 #include <cmath>
+#include <cstring>
 
 #include "estimate/solver/normal_equations.hpp"
+#include "math/double2.hpp"
 
 namespace semtrack {
 
@@ -14,29 +16,27 @@ constexpr double kMinDeterminantRatio = 1e-14;
 // Damping of a point that is singular by itself (seen once by one camera): it must not hold its frame.
 constexpr double kPointDamping = 1e-7;
 
-/// out = E C^-1, both as three rows of kCoupled columns (one row per coordinate of the point).
-template <std::size_t kCoupled>
-inline void times_inverse(const double* __restrict e, const std::array<double, 6>& c, double* __restrict out) {
-    for (std::size_t r = 0; r < kCoupled; ++r) {
-        out[r] = e[r] * c[0] + e[kCoupled + r] * c[1] + e[2 * kCoupled + r] * c[2];
-    }
-    for (std::size_t r = 0; r < kCoupled; ++r) {
-        out[kCoupled + r] = e[r] * c[1] + e[kCoupled + r] * c[3] + e[2 * kCoupled + r] * c[4];
-    }
-    for (std::size_t r = 0; r < kCoupled; ++r) {
-        out[2 * kCoupled + r] = e[r] * c[2] + e[kCoupled + r] * c[4] + e[2 * kCoupled + r] * c[5];
-    }
-}
-
-/// S -= Y^T E of three rows each; rows of S lie stride apart. kDiagonal: only the upper triangle is wanted.
-template <std::size_t kCoupled, std::size_t kStride, bool kDiagonal>
-inline void subtract_product(const double* __restrict y, const double* __restrict e, double* __restrict S) {
-    for (std::size_t r = 0; r < kCoupled; ++r) {
-        double* __restrict const row = S + r * kStride;
-        // Pairs of columns stay whole, for the two lanes of a vector.
-        for (std::size_t c = kDiagonal ? r / 2 * 2 : 0; c < kCoupled; ++c) {
-            row[c] -= y[r] * e[c] + y[kCoupled + r] * e[kCoupled + c] + y[2 * kCoupled + r] * e[2 * kCoupled + c];
+/// S -= Y E^T of two rows of Y and kColumns of E, summed over the lanes; rows of S lie s_stride apart.
+template <std::size_t kColumns, std::size_t kCoupledRows, std::size_t kLaneStride>
+inline void subtract_tile(const double* Yt, const double* Et, std::size_t lanes, std::size_t s_stride, double* S) {
+    std::array<Double2, kColumns> first{};
+    std::array<Double2, kColumns> second{};
+    for (std::size_t p = 0; p < lanes; p += kDouble2) {
+        for (std::size_t k = 0; k < kPointBlock; ++k) {
+            const double* const y = Yt + k * kCoupledRows * kLaneStride + p;
+            const double* const e = Et + k * kCoupledRows * kLaneStride + p;
+            const Double2 y_first = load2(y);
+            const Double2 y_second = load2(y + kLaneStride);
+            for (std::size_t c = 0; c < kColumns; ++c) {
+                const Double2 column = load2(e + c * kLaneStride);
+                first[c] += y_first * column;
+                second[c] += y_second * column;
+            }
         }
+    }
+    for (std::size_t c = 0; c < kColumns; ++c) {
+        S[c] -= sum2(first[c]);
+        S[s_stride + c] -= sum2(second[c]);
     }
 }
 
@@ -57,7 +57,7 @@ inline double dot(const double* a, const double* b, std::size_t n) {
 
 }  // namespace
 
-bool NormalEquations::invert_point_damped(std::size_t p, double damping) {
+bool NormalEquations::invert_point(std::size_t p, double damping) {
     const double d = 1.0 + damping;
     const double c00 = d * C_[0][p];
     const double c01 = C_[1][p];
@@ -69,61 +69,94 @@ bool NormalEquations::invert_point_damped(std::size_t p, double damping) {
     const double b = c02 * c12 - c01 * c22;
     const double c = c01 * c12 - c02 * c11;
     const double determinant = c00 * a + c01 * b + c02 * c;
-    const double s = 1.0 / determinant;
+    const bool positive = c00 > 0.0 && c11 > 0.0 && c22 > 0.0 && determinant > kMinDeterminantRatio * (c00 * c11 * c22);
+    const double s = positive ? 1.0 / determinant : 0.0;
     C_inv_[0][p] = s * a;
     C_inv_[1][p] = s * b;
     C_inv_[2][p] = s * c;
     C_inv_[3][p] = s * (c00 * c22 - c02 * c02);
     C_inv_[4][p] = s * (c01 * c02 - c00 * c12);
     C_inv_[5][p] = s * (c00 * c11 - c01 * c01);
-    return c00 > 0.0 && c11 > 0.0 && c22 > 0.0 && determinant > kMinDeterminantRatio * (c00 * c11 * c22);
+    return positive;
 }
 
 void NormalEquations::invert_points(double lambda) {
-    for (std::size_t p = 0; p < static_cast<std::size_t>(points_); ++p) {
-        usable_[p] = invert_point_damped(p, lambda) || invert_point_damped(p, kPointDamping);
+    for (std::size_t p = 0; p < lanes_; ++p) {
+        if (!invert_point(p, lambda) && !invert_point(p, kPointDamping)) {
+            for (PointRow& row : C_inv_) {
+                row[p] = 0.0;
+            }
+        }
+    }
+    for (std::size_t p = 0; p < lanes_; ++p) {
+        const double w0 = w_[0][p];
+        const double w1 = w_[1][p];
+        const double w2 = w_[2][p];
+        z_[0][p] = C_inv_[0][p] * w0 + C_inv_[1][p] * w1 + C_inv_[2][p] * w2;
+        z_[1][p] = C_inv_[1][p] * w0 + C_inv_[3][p] * w1 + C_inv_[4][p] * w2;
+        z_[2][p] = C_inv_[2][p] * w0 + C_inv_[4][p] * w1 + C_inv_[5][p] * w2;
     }
 }
 
-// S -= E C^-1 E^T, s -= E C^-1 w of one point. Below the diagonal blocks' diagonals S is written but never read.
-template <std::size_t kCoupled>
-void NormalEquations::reduce_point(int p) {
-    const auto ip = static_cast<std::size_t>(p);
-    const auto begin = static_cast<std::size_t>(coupled_begin_);
-    const std::array<double, 6> c{C_inv_[0][ip], C_inv_[1][ip], C_inv_[2][ip],
-                                  C_inv_[3][ip], C_inv_[4][ip], C_inv_[5][ip]};
-    const double t0 = c[0] * w_[0][ip] + c[1] * w_[1][ip] + c[2] * w_[2][ip];  // C^-1 w
-    const double t1 = c[1] * w_[0][ip] + c[3] * w_[1][ip] + c[4] * w_[2][ip];
-    const double t2 = c[2] * w_[0][ip] + c[4] * w_[1][ip] + c[5] * w_[2][ip];
-    const auto seen = static_cast<unsigned>(seen_[ip]);
-    const double* const Et = &Et_[coupling_at(p, 0)];
-    constexpr std::size_t kBlock = kPointBlock * kCoupled;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(frames_); ++i) {
-        if (((seen >> i) & 1U) == 0U) {
-            continue;
+// Y = E C^-1 of frame i, and its share of s -= E C^-1 w.
+template <Coupling kCoupling>
+void NormalEquations::weigh_couplings(int i) {
+    constexpr std::size_t kRows = kCoupled<kCoupling>;
+    constexpr std::size_t kLaneStride = kCouplingStride<kCoupling>;
+    const double* const Et = &Et_[coupling_at(i, 0, 0)];
+    double* const Yt = Y_[0].data();
+    std::array<Double2, kRows> sums{};
+    for (std::size_t p = 0; p < lanes_; p += kDouble2) {
+        const Double2 c00 = load2(&C_inv_[0][p]);
+        const Double2 c01 = load2(&C_inv_[1][p]);
+        const Double2 c02 = load2(&C_inv_[2][p]);
+        const Double2 c11 = load2(&C_inv_[3][p]);
+        const Double2 c12 = load2(&C_inv_[4][p]);
+        const Double2 c22 = load2(&C_inv_[5][p]);
+        for (std::size_t r = 0; r < kRows; ++r) {
+            const Double2 e0 = load2(Et + r * kLaneStride + p);
+            const Double2 e1 = load2(Et + (kRows + r) * kLaneStride + p);
+            const Double2 e2 = load2(Et + (2 * kRows + r) * kLaneStride + p);
+            store2(Yt + r * kLaneStride + p, e0 * c00 + e1 * c01 + e2 * c02);
+            store2(Yt + (kRows + r) * kLaneStride + p, e0 * c01 + e1 * c11 + e2 * c12);
+            store2(Yt + (2 * kRows + r) * kLaneStride + p, e0 * c02 + e1 * c12 + e2 * c22);
+            sums[r] += e0 * load2(&z_[0][p]) + e1 * load2(&z_[1][p]) + e2 * load2(&z_[2][p]);
         }
-        const double* __restrict const e = Et + kBlock * i;
-        double* __restrict const s = &s_[begin + kCoupled * i];
-        for (std::size_t r = 0; r < kCoupled; ++r) {
-            s[r] -= e[r] * t0 + e[kCoupled + r] * t1 + e[2 * kCoupled + r] * t2;
-        }
-        std::array<double, kBlock> y{};  // E C^-1
-        times_inverse<kCoupled>(e, c, y.data());
-        double* const rows = &S_[(begin + kCoupled * i) * kStride + begin];
-        subtract_product<kCoupled, kStride, true>(y.data(), e, rows + kCoupled * i);
-        for (std::size_t j = i + 1; j < static_cast<std::size_t>(frames_); ++j) {
-            if (((seen >> j) & 1U) != 0U) {
-                subtract_product<kCoupled, kStride, false>(y.data(), Et + kBlock * j, rows + kCoupled * j);
+    }
+    for (std::size_t r = 0; r < kRows; ++r) {
+        s_[static_cast<std::size_t>(coupled_begin_ + coupled_ * i) + r] -= sum2(sums[r]);
+    }
+}
+
+// Block (i, j) of S -= E C^-1 E^T, tile by tile. Below the diagonal S is written but never read.
+template <Coupling kCoupling>
+void NormalEquations::subtract_block(int i, int j) {
+    constexpr std::size_t kRows = kCoupled<kCoupling>;
+    constexpr std::size_t kLaneStride = kCouplingStride<kCoupling>;
+    constexpr std::size_t kTile = kCoupling == Coupling::kPose ? 3 : 4;  // what registers hold
+    const double* const Et = &Et_[coupling_at(j, 0, 0)];
+    double* const block = &S(row_of(i, 0), row_of(j, 0));
+    for (std::size_t r = 0; r < kRows; r += 2) {
+        for (std::size_t c = 0; c < kRows; c += kTile) {
+            if (i != j || c + kTile > r) {
+                subtract_tile<kTile, kRows, kLaneStride>(Y_[0].data() + r * kLaneStride, Et + c * kLaneStride, lanes_,
+                                                         kStride, block + r * kStride + c);
             }
         }
     }
 }
 
-template <std::size_t kCoupled>
-void NormalEquations::reduce_points() {
-    for (int p = 0; p < points_; ++p) {
-        if (usable_[static_cast<std::size_t>(p)]) {
-            reduce_point<kCoupled>(p);
+template <Coupling kCoupling>
+void NormalEquations::eliminate_points() {
+    for (int i = 0; i < frames_; ++i) {
+        if (!sees_points(i)) {
+            continue;
+        }
+        weigh_couplings<kCoupling>(i);
+        for (int j = i; j < frames_; ++j) {
+            if (sees_points(j)) {
+                subtract_block<kCoupling>(i, j);
+            }
         }
     }
 }
@@ -139,9 +172,9 @@ void NormalEquations::reduce(double lambda) {
     }
     invert_points(lambda);
     if (coupled_ == static_cast<int>(Coupling::kPlanar)) {
-        reduce_points<static_cast<std::size_t>(Coupling::kPlanar)>();
+        eliminate_points<Coupling::kPlanar>();
     } else {
-        reduce_points<static_cast<std::size_t>(Coupling::kPose)>();
+        eliminate_points<Coupling::kPose>();
     }
 }
 
@@ -253,45 +286,48 @@ Status NormalEquations::solve(double lambda, SolverStep& step) {
         step.shared(r) = x_[static_cast<std::size_t>(shared_row() + r)];
     }
     if (coupled_ == static_cast<int>(Coupling::kPlanar)) {
-        substitute_points<static_cast<std::size_t>(Coupling::kPlanar)>(step);
+        substitute_points<Coupling::kPlanar>();
     } else {
-        substitute_points<static_cast<std::size_t>(Coupling::kPose)>(step);
+        substitute_points<Coupling::kPose>();
+    }
+    for (int p = 0; p < points_; ++p) {
+        const auto ip = static_cast<std::size_t>(p);
+        step.point[ip] = Vec3(z_[0][ip], z_[1][ip], z_[2][ip]);
     }
     return Status::kOk;
 }
 
 // z = -C^-1 (w + E^T y)
-template <std::size_t kCoupled>
-void NormalEquations::substitute_points(SolverStep& step) const {
-    for (int p = 0; p < points_; ++p) {
-        const auto ip = static_cast<std::size_t>(p);
-        step.point[ip].setZero();
-        if (!usable_[ip]) {
+template <Coupling kCoupling>
+void NormalEquations::substitute_points() {
+    constexpr std::size_t kColumns = kCoupled<kCoupling>;
+    constexpr std::size_t kLaneStride = kCouplingStride<kCoupling>;
+    for (std::size_t k = 0; k < kPointBlock; ++k) {
+        std::memcpy(z_[k].data(), w_[k].data(), lanes_ * sizeof(double));
+    }
+    for (int i = 0; i < frames_; ++i) {
+        if (!sees_points(i)) {
             continue;
         }
-        // Every column is summed on its own, over the frames: no chain of additions.
-        std::array<double, kPointBlock * kCoupled> sums{};
-        for (int i = 0; i < frames_; ++i) {
-            if (((static_cast<unsigned>(seen_[ip]) >> static_cast<unsigned>(i)) & 1U) == 0U) {
-                continue;
-            }
-            const double* const e = &Et_[coupling_at(p, i)];
-            const double* const y = &x_[static_cast<std::size_t>(coupled_begin_ + coupled_ * i)];
-            for (std::size_t k = 0; k < kPointBlock; ++k) {
-                for (std::size_t c = 0; c < kCoupled; ++c) {
-                    sums[kCoupled * k + c] += e[kCoupled * k + c] * y[c];
-                }
-            }
-        }
-        std::array<double, kPointBlock> rhs{w_[0][ip], w_[1][ip], w_[2][ip]};
+        const double* const Et = &Et_[coupling_at(i, 0, 0)];
+        const double* const y = &x_[static_cast<std::size_t>(coupled_begin_ + coupled_ * i)];
         for (std::size_t k = 0; k < kPointBlock; ++k) {
-            for (std::size_t c = 0; c < kCoupled; ++c) {
-                rhs[k] += sums[kCoupled * k + c];
+            for (std::size_t p = 0; p < lanes_; p += kDouble2) {
+                Double2 sum = load2(&z_[k][p]);
+                for (std::size_t c = 0; c < kColumns; ++c) {
+                    sum += load2(Et + (k * kColumns + c) * kLaneStride + p) * y[c];
+                }
+                store2(&z_[k][p], sum);
             }
         }
-        step.point[ip] = -Vec3(C_inv_[0][ip] * rhs[0] + C_inv_[1][ip] * rhs[1] + C_inv_[2][ip] * rhs[2],
-                               C_inv_[1][ip] * rhs[0] + C_inv_[3][ip] * rhs[1] + C_inv_[4][ip] * rhs[2],
-                               C_inv_[2][ip] * rhs[0] + C_inv_[4][ip] * rhs[1] + C_inv_[5][ip] * rhs[2]);
+    }
+    for (std::size_t p = 0; p < lanes_; ++p) {
+        const double r0 = z_[0][p];
+        const double r1 = z_[1][p];
+        const double r2 = z_[2][p];
+        z_[0][p] = -(C_inv_[0][p] * r0 + C_inv_[1][p] * r1 + C_inv_[2][p] * r2);
+        z_[1][p] = -(C_inv_[1][p] * r0 + C_inv_[3][p] * r1 + C_inv_[4][p] * r2);
+        z_[2][p] = -(C_inv_[2][p] * r0 + C_inv_[4][p] * r1 + C_inv_[5][p] * r2);
     }
 }
 

@@ -12,9 +12,32 @@ namespace semtrack {
 
 namespace {
 
-/// Two lanes of an observation at the state.
+Double2 both(double x) {
+    return Double2{x, x};
+}
+
+/// A rotation and a translation, the same in both lanes.
+struct Transform2 {
+    Double2 r00, r01, r02, r10, r11, r12, r20, r21, r22, t0, t1, t2;
+
+    Transform2(const Mat3& R, const Vec3& t)
+        : r00(both(R(0, 0))),
+          r01(both(R(0, 1))),
+          r02(both(R(0, 2))),
+          r10(both(R(1, 0))),
+          r11(both(R(1, 1))),
+          r12(both(R(1, 2))),
+          r20(both(R(2, 0))),
+          r21(both(R(2, 1))),
+          r22(both(R(2, 2))),
+          t0(both(t(0))),
+          t1(both(t(1))),
+          t2(both(t(2))) {}
+};
+
+/// What was measured of one observation, and where it is at the state, two lanes each.
 struct Observed {
-    Double2 x, y, inv_z, r0, r1, r2, weight, weight_right, robust;
+    Double2 x, y, inv_z, r0, r1, r2, focal_u, focal_v, focal_right, robust;
 };
 
 /// M = R^T J_x^T W J_x R and b = R^T J_x^T W r of two observations, in L (R = R_c_l).
@@ -23,20 +46,20 @@ struct Information {
 };
 
 // J_x R has the rows (w f / z) (R_row - slope R_2): their weighted squares make M.
-inline Information information(const Calibration& calibration, const Mat3& R, const Observed& o) {
-    const Double2 gx = o.weight * calibration.left.fx * o.inv_z;
-    const Double2 gy = o.weight * calibration.left.fy * o.inv_z;
-    const Double2 gr = o.weight_right * calibration.left.fx * o.inv_z;
-    const Double2 x_right = o.x - calibration.baseline_m * o.inv_z;
-    const Double2 a0 = gx * (R(0, 0) - o.x * R(2, 0));
-    const Double2 a1 = gx * (R(0, 1) - o.x * R(2, 1));
-    const Double2 a2 = gx * (R(0, 2) - o.x * R(2, 2));
-    const Double2 b0 = gy * (R(1, 0) - o.y * R(2, 0));
-    const Double2 b1 = gy * (R(1, 1) - o.y * R(2, 1));
-    const Double2 b2 = gy * (R(1, 2) - o.y * R(2, 2));
-    const Double2 c0 = gr * (R(0, 0) - x_right * R(2, 0));
-    const Double2 c1 = gr * (R(0, 1) - x_right * R(2, 1));
-    const Double2 c2 = gr * (R(0, 2) - x_right * R(2, 2));
+inline Information information(const Transform2& R, const Double2& baseline, const Observed& o) {
+    const Double2 gx = o.focal_u * o.inv_z;
+    const Double2 gy = o.focal_v * o.inv_z;
+    const Double2 gr = o.focal_right * o.inv_z;
+    const Double2 x_right = o.x - baseline * o.inv_z;
+    const Double2 a0 = gx * (R.r00 - o.x * R.r20);
+    const Double2 a1 = gx * (R.r01 - o.x * R.r21);
+    const Double2 a2 = gx * (R.r02 - o.x * R.r22);
+    const Double2 b0 = gy * (R.r10 - o.y * R.r20);
+    const Double2 b1 = gy * (R.r11 - o.y * R.r21);
+    const Double2 b2 = gy * (R.r12 - o.y * R.r22);
+    const Double2 c0 = gr * (R.r00 - x_right * R.r20);
+    const Double2 c1 = gr * (R.r01 - x_right * R.r21);
+    const Double2 c2 = gr * (R.r02 - x_right * R.r22);
     const Double2 s = o.robust;
     return {s * (a0 * a0 + b0 * b0 + c0 * c0),       s * (a0 * a1 + b0 * b1 + c0 * c1),
             s * (a0 * a2 + b0 * b2 + c0 * c2),       s * (a1 * a1 + b1 * b1 + c1 * c1),
@@ -133,13 +156,17 @@ void ObjectFeatures::gather_frame(const ObjectFrame& frame, FrameLanes& lanes) c
             frame.features[lane_used ? static_cast<std::size_t>(slot_of_point_[p]) : std::size_t{0}];
         const bool seen = lane_used && o.valid;
         lanes.seen_any = lanes.seen_any || seen;
-        lanes.behind_cost[p] = seen ? -1.0 : 0.0;
-        lanes.u[p] = seen ? static_cast<double>(o.u) : 0.0;
-        lanes.v[p] = seen ? static_cast<double>(o.v) : 0.0;
-        lanes.u_right[p] = seen ? static_cast<double>(o.u_right) : 0.0;
-        lanes.weight[p] = seen ? 1.0 / (kFeatureSigmaScale * static_cast<double>(o.sigma_px)) : 0.0;
-        lanes.weight_right[p] =
+        const double weight = seen ? 1.0 / (kFeatureSigmaScale * static_cast<double>(o.sigma_px)) : 0.0;
+        const double weight_right =
             seen && o.stereo ? 1.0 / (kFeatureSigmaScale * static_cast<double>(o.sigma_right_px)) : 0.0;
+        lanes.behind[p] = seen ? -1.0 : 0.0;
+        lanes.focal_u[p] = weight * calibration_.left.fx;
+        lanes.focal_v[p] = weight * calibration_.left.fy;
+        lanes.focal_right[p] = weight_right * calibration_.left.fx;
+        lanes.u[p] = seen ? weight * (static_cast<double>(o.u) - calibration_.left.cx) : 0.0;
+        lanes.v[p] = seen ? weight * (static_cast<double>(o.v) - calibration_.left.cy) : 0.0;
+        lanes.u_right[p] =
+            seen && o.stereo ? weight_right * (static_cast<double>(o.u_right) - calibration_.right.cx) : 0.0;
     }
 }
 
@@ -173,47 +200,36 @@ void ObjectFeatures::project(const ObjectState& state, FrameLanes& lanes) const 
     R_l_o(0, 1) = -heading.sin;
     const Mat3 R = lanes.R_c_l * R_l_o;
     const Vec3 t = lanes.R_c_l * state.p + lanes.t_c_l;
-    const double r00 = R(0, 0), r01 = R(0, 1), r02 = R(0, 2), t0 = t(0);
-    const double r10 = R(1, 0), r11 = R(1, 1), r12 = R(1, 2), t1 = t(1);
-    const double r20 = R(2, 0), r21 = R(2, 1), r22 = R(2, 2), t2 = t(2);
-    const double fx = calibration_.left.fx;
-    const double fy = calibration_.left.fy;
-    const double cx = calibration_.left.cx;
-    const double cy = calibration_.left.cy;
-    const double cx_right = calibration_.right.cx;
-    const double baseline = calibration_.baseline_m;
+    const Transform2 T(R, t);
+    const Double2 baseline = both(calibration_.baseline_m);
     FrameLanes& l = lanes;
-    for (std::size_t p = 0; p < lane_count_; ++p) {
-        l.x[p] = r00 * f_[0][p] + r01 * f_[1][p] + r02 * f_[2][p] + t0;
-        l.y[p] = r10 * f_[0][p] + r11 * f_[1][p] + r12 * f_[2][p] + t1;
-        l.inv_z[p] = r20 * f_[0][p] + r21 * f_[1][p] + r22 * f_[2][p] + t2;
-        l.robust[p] = 1.0;
-    }
-    for (std::size_t p = 0; p < lane_count_; ++p) {
-        if (!(l.inv_z[p] >= kMinDepth_m)) {
-            l.inv_z[p] = 1.0;
-            l.robust[p] = 0.0;
+    for (std::size_t p = 0; p < lane_count_; p += kDouble2) {
+        const Double2 f0 = load2(&f_[0][p]);
+        const Double2 f1 = load2(&f_[1][p]);
+        const Double2 f2 = load2(&f_[2][p]);
+        Double2 z_c = T.r20 * f0 + T.r21 * f1 + T.r22 * f2 + T.t2;
+        Double2 ahead = both(1.0);
+        for (int lane = 0; lane < 2; ++lane) {
+            if (!(z_c[lane] >= kMinDepth_m)) {
+                z_c[lane] = 1.0;
+                ahead[lane] = 0.0;
+            }
         }
-    }
-    for (std::size_t p = 0; p < lane_count_; ++p) {
-        const double inv_z = 1.0 / l.inv_z[p];
-        const double x = l.x[p] * inv_z;
-        const double y = l.y[p] * inv_z;
-        const double ahead = l.robust[p];
-        const double w = ahead * l.weight[p];
-        const double w_right = ahead * l.weight_right[p];
-        const double r_u = w * (fx * x + cx - l.u[p]);
-        const double r_v = w * (fy * y + cy - l.v[p]);
-        const double r_right = w_right * (fx * (x - baseline * inv_z) + cx_right - l.u_right[p]);
-        const double r2 = r_u * r_u + r_v * r_v + r_right * r_right + (1.0 - ahead) * l.behind_cost[p];
-        l.x[p] = x;
-        l.y[p] = y;
-        l.inv_z[p] = inv_z;
-        l.r[0][p] = r_u;
-        l.r[1][p] = r_v;
-        l.r[2][p] = r_right;
-        l.r2[p] = r2;
-        l.rho[p] = r2;
+        const Double2 inv_z = 1.0 / z_c;
+        const Double2 x = (T.r00 * f0 + T.r01 * f1 + T.r02 * f2 + T.t0) * inv_z;
+        const Double2 y = (T.r10 * f0 + T.r11 * f1 + T.r12 * f2 + T.t1) * inv_z;
+        // w f slope - w (measured - centre)
+        const Double2 r0 = ahead * (load2(&l.focal_u[p]) * x - load2(&l.u[p]));
+        const Double2 r1 = ahead * (load2(&l.focal_v[p]) * y - load2(&l.v[p]));
+        const Double2 r2 = ahead * (load2(&l.focal_right[p]) * (x - baseline * inv_z) - load2(&l.u_right[p]));
+        store2(&l.x[p], x);
+        store2(&l.y[p], y);
+        store2(&l.inv_z[p], inv_z);
+        store2(&l.r[0][p], r0);
+        store2(&l.r[1][p], r1);
+        store2(&l.r[2][p], r2);
+        store2(&l.rho[p], r0 * r0 + r1 * r1 + r2 * r2 + (1.0 - ahead) * load2(&l.behind[p]));
+        store2(&l.robust[p], ahead);
     }
 }
 
@@ -221,7 +237,7 @@ void ObjectFeatures::project(const ObjectState& state, FrameLanes& lanes) const 
 double ObjectFeatures::robust_cost(FrameLanes& lanes) const {
     constexpr double k = kFeatureHuber;
     for (std::size_t p = 0; p < lane_count_; ++p) {
-        const double r2 = lanes.r2[p];
+        const double r2 = lanes.rho[p];
         if (r2 < 0.0) {
             lanes.rho[p] = kFeatureCull * kFeatureCull;
         } else if (!(r2 <= k * k)) {
@@ -238,15 +254,17 @@ void ObjectFeatures::add_frame(int k, NormalEquations& system) const {
     const FrameLanes& lanes = frame_lanes_[static_cast<std::size_t>(k)];
     const FramePoints out = system.open_frame(k);
     FrameSums sums;
-    const double turns = has_heading_ ? 1.0 : 0.0;
-    const double cos = lanes.cos;
-    const double sin = lanes.sin;
+    const Transform2 R(lanes.R_c_l, lanes.t_c_l);
+    const Double2 baseline = both(calibration_.baseline_m);
+    const Double2 turns = both(has_heading_ ? 1.0 : 0.0);
+    const Double2 cos = both(lanes.cos);
+    const Double2 sin = both(lanes.sin);
     for (std::size_t p = 0; p < lane_count_; p += kDouble2) {
-        const Information i =
-            information(calibration_, lanes.R_c_l,
-                        {load2(&lanes.x[p]), load2(&lanes.y[p]), load2(&lanes.inv_z[p]), load2(&lanes.r[0][p]),
-                         load2(&lanes.r[1][p]), load2(&lanes.r[2][p]), load2(&lanes.weight[p]),
-                         load2(&lanes.weight_right[p]), load2(&lanes.robust[p])});
+        const Observed o{load2(&lanes.x[p]),       load2(&lanes.y[p]),       load2(&lanes.inv_z[p]),
+                         load2(&lanes.r[0][p]),    load2(&lanes.r[1][p]),    load2(&lanes.r[2][p]),
+                         load2(&lanes.focal_u[p]), load2(&lanes.focal_v[p]), load2(&lanes.focal_right[p]),
+                         load2(&lanes.robust[p])};
+        const Information i = information(R, baseline, o);
         const Double2 f0 = load2(&f_[0][p]);
         const Double2 f1 = load2(&f_[1][p]);
         // By theta: g = R_z (z x f), whose third entry is 0, and q = M g.

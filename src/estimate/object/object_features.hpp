@@ -35,17 +35,18 @@ private:
         Vec3 t_c_l{Vec3::Zero()};
         double cos{1};
         double sin{0};
+        // Measured, all times 1 / sigma: focal lengths and the distance from the principal point. 0: not seen.
+        Lane focal_u{};
+        Lane focal_v{};
+        Lane focal_right{};  // 0 also without a right view
         Lane u{};
         Lane v{};
         Lane u_right{};
-        Lane weight{};        // 1 / sigma; 0: not seen
-        Lane weight_right{};  // 0: not seen, or no right view
-        Lane behind_cost{};   // -1: seen; 0: not seen
+        Lane behind{};  // -1: seen, so that it costs something behind the camera; 0: not seen
         Lane x{};
         Lane y{};
         Lane inv_z{};
         std::array<Lane, 3> r{};
-        Lane r2{};
         Lane rho{};
         Lane robust{};
     };

@@ -137,6 +137,11 @@ void NormalEquations::subtract_block(int i, int j) {
     const double* const Et = &Et_[coupling_at(j, 0, 0)];
     double* const block = &S(row_of(i, 0), row_of(j, 0));
     for (std::size_t r = 0; r < kRows; r += 2) {
+        if (i == j && r + 2 == kRows) {  // the last two rows of a diagonal block need but two columns
+            subtract_tile<2, kRows, kLaneStride>(Y_[0].data() + r * kLaneStride, Et + r * kLaneStride, lanes_, kStride,
+                                                 block + r * kStride + r);
+            continue;
+        }
         for (std::size_t c = 0; c < kRows; c += kTile) {
             if (i != j || c + kTile > r) {
                 subtract_tile<kTile, kRows, kLaneStride>(Y_[0].data() + r * kLaneStride, Et + c * kLaneStride, lanes_,

@@ -12,13 +12,14 @@ namespace semtrack {
 using Double2 = double __attribute__((vector_size(16)));
 inline constexpr std::size_t kDouble2 = 2;
 
+/// p: aligned to 16 bytes, here and below.
 [[nodiscard]] inline Double2 load2(const double* p) {
     Double2 v;
-    std::memcpy(&v, p, sizeof v);
+    std::memcpy(&v, __builtin_assume_aligned(p, sizeof v), sizeof v);
     return v;
 }
 inline void store2(double* p, const Double2& v) {
-    std::memcpy(p, &v, sizeof v);
+    std::memcpy(__builtin_assume_aligned(p, sizeof v), &v, sizeof v);
 }
 inline void add2(double* p, const Double2& v) {
     store2(p, load2(p) + v);

@@ -12,7 +12,7 @@
 
 namespace semtrack {
 
-using Lane = std::array<double, static_cast<std::size_t>(kMaxObjectFeatures)>;
+struct alignas(kLaneBytes) Lane : std::array<double, static_cast<std::size_t>(kMaxObjectFeatures)> {};
 
 class ObjectFeatures {
 public:

@@ -108,22 +108,22 @@ private:
     int coupled_begin_{0};
     std::size_t coupling_stride_{kPointStride};
     std::size_t lanes_{0};
-    int size_{0};                                     // 6 frames + 3 shared
-    std::array<double, kReducedSize * kStride> B_{};  // upper triangle, row by row
-    std::array<double, kReducedSize * kStride> S_{};  // reduced matrix, then its factor
+    int size_{0};                                                         // 6 frames + 3 shared
+    alignas(kLaneBytes) std::array<double, kReducedSize * kStride> B_{};  // upper triangle, row by row
+    alignas(kLaneBytes) std::array<double, kReducedSize * kStride> S_{};  // reduced matrix, then its factor
     std::array<double, kReducedSize> v_{};
     std::array<double, kReducedSize> s_{};  // reduced right-hand side
     std::array<double, kReducedSize> x_{};
     std::array<double, kReducedSize> diagonal_inverse_{};  // of the factor
     std::array<int, kReducedSize> row_end_{};              // of the factor: behind it a row is zero
-    std::array<PointRow, 6> C_{};                          // 00 01 02 11 12 22
-    std::array<PointRow, 6> C_inv_{};                      // zero: the point keeps its place
-    std::array<PointRow, 3> w_{};
-    std::array<PointRow, 3> z_{};                // C^-1 w, then the points' steps
-    std::array<PointRow, 3 * kFrameBlock> Y_{};  // E C^-1 of one frame, transposed as Et_
-    std::array<double, kCouplings> Et_{};        // frame by frame
-    std::uint16_t seeing_{0};                    // bit i: frame i has couplings
-    bool factored_{false};                       // S holds the factor of the undamped system
+    alignas(kLaneBytes) std::array<PointRow, 6> C_{};      // 00 01 02 11 12 22
+    alignas(kLaneBytes) std::array<PointRow, 6> C_inv_{};  // zero: the point keeps its place
+    alignas(kLaneBytes) std::array<PointRow, 3> w_{};
+    alignas(kLaneBytes) std::array<PointRow, 3> z_{};                // C^-1 w, then the points' steps
+    alignas(kLaneBytes) std::array<PointRow, 3 * kFrameBlock> Y_{};  // E C^-1 of one frame, transposed as Et_
+    alignas(kLaneBytes) std::array<double, kCouplings> Et_{};        // frame by frame
+    std::uint16_t seeing_{0};                                        // bit i: frame i has couplings
+    bool factored_{false};                                           // S holds the factor of the undamped system
 };
 
 }  // namespace semtrack

@@ -3,6 +3,7 @@
 #define SEMTRACK_ESTIMATE_SOLVER_POINT_LANES_HPP
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "semtrack/capacity.hpp"
@@ -20,6 +21,7 @@ enum class Coupling : std::uint8_t {
     kPlanar = 4,  ///< the leading four: (p, theta) of an object; up to kMaxObjectFeatures points
 };
 
+inline constexpr std::size_t kLaneBytes = 16;  ///< alignment of rows
 /// Loops over points run to the next multiple; the lanes behind the last point hold zeros.
 inline constexpr int kLaneGroup = 2;
 [[nodiscard]] constexpr std::size_t padded_lanes(int points) {

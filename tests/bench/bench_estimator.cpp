@@ -1,129 +1,118 @@
-// Time of the solver on problems of a fixed size: one object, 10 frames with 100 stereo features each, and the ego
-// window, its frames with 500 points. 200 seeded problems each; a problem's time is the shortest of five runs.
-#include <benchmark/benchmark.h>
-
+// Time, allocations and final cost of the solver on 200 seeded problems, beside Ceres where it is installed: one object
+// (10 frames with 100 stereo features each) and the ego window with 500 points. A problem's time is the shortest of
+// five runs. All in one run, so that the ratios hold on a noisy machine.
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <vector>
 
+#include "bench/solver_problems.hpp"
 #include "estimate/ego/ego_problem.hpp"
-#include "estimate/object/object_estimator.hpp"
 #include "estimate/object/object_problem.hpp"
-#include "tests/estimate/ego/drive_scene.hpp"
-#include "tests/estimate/object/object_scene.hpp"
 
 namespace semtrack::bench {
 namespace {
 
-constexpr int kProblems = 200;
-constexpr int kRuns = 5;
-constexpr int kIterations = 5;
+struct Series {
+    std::vector<SolveOutcome> outcomes;
 
-using Clock = std::chrono::steady_clock;
-
-/// Milliseconds of problems and what the solver made of them.
-struct Times {
-    std::vector<double> ms;
-    double iterations{0};
-    double points{0};
-
-    void report(benchmark::State& state) {
-        std::sort(ms.begin(), ms.end());
-        state.counters["median_ms"] = ms[ms.size() / 2];
-        state.counters["longest_ms"] = ms.back();
-        state.counters["iterations"] = iterations / static_cast<double>(ms.size());
-        state.counters["points"] = points / static_cast<double>(ms.size());
-        state.counters["scratch_KiB"] = static_cast<double>(sizeof(NormalEquations) + sizeof(SolverStep)) / 1024.0;
+    /// quantile 0..1 of a member over the problems.
+    [[nodiscard]] double quantile(double SolveOutcome::*member, double q) const {
+        std::vector<double> x;
+        for (const SolveOutcome& o : outcomes) {
+            x.push_back(o.*member);
+        }
+        std::sort(x.begin(), x.end());
+        return x[static_cast<std::size_t>(q * static_cast<double>(x.size() - 1) + 0.5)];
+    }
+    void print(const char* who) const {
+        const double median = quantile(&SolveOutcome::ms, 0.5);
+        const double longest = quantile(&SolveOutcome::ms, 1.0);
+        long allocations = 0;
+        for (const SolveOutcome& o : outcomes) {
+            allocations = std::max(allocations, o.allocations);
+        }
+        std::printf("  %-6s %8.3f %8.3f %8.3f   max/median %5.2f   begin %6.3f   iterations %4.1f   allocations %6ld\n",
+                    who, median, quantile(&SolveOutcome::ms, 0.95), longest, longest / median,
+                    quantile(&SolveOutcome::begin_ms, 0.5), quantile(&SolveOutcome::iterations, 0.5), allocations);
     }
 };
 
-/// Solves from the same start five times. reset: brings the problem there.
-template <class Problem, class Reset>
-void time_problem(Problem& problem, Reset reset, NormalEquations& system, SolverStep& step, Times& out) {
-    LmOptions options;
-    options.iterations = kIterations;
-    options.relative_decrease = 0.0;  // all of them
-    double shortest = 1e9;
-    for (int run = 0; run < kRuns; ++run) {
-        reset(problem);
-        const Clock::time_point begin = Clock::now();
-        const LmReport report = levenberg_marquardt(problem, options, system, step);
-        shortest = std::min(shortest, std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
-        out.iterations += run == 0 ? report.iterations : 0;
+template <class Data>
+void compare(const char* what, std::vector<std::unique_ptr<Data>>& problems, const SolveLimits& limits,
+             [[maybe_unused]] bool with_peer) {
+    std::printf("%s: ms median, p95, max of %zu problems\n", what, problems.size());
+    Series ours;
+    Series peer;
+    std::vector<double> ratio;
+    for (const std::unique_ptr<Data>& data : problems) {
+        ours.outcomes.push_back(data->solve(limits));
+#ifdef SEMTRACK_BENCH_CERES
+        if (!with_peer) {
+            continue;
+        }
+        peer.outcomes.push_back(ceres_solve(*data, limits));
+        ratio.push_back(ours.outcomes.back().cost / peer.outcomes.back().cost);
+        const double start = ours.outcomes.back().cost_start / peer.outcomes.back().cost_start;
+        if (start < 1.0 - 1e-9 || start > 1.0 + 1e-9) {
+            std::printf("  the problems differ: cost at the start %.12f\n", start);
+        }
+#endif
     }
-    out.ms.push_back(shortest);
-    out.points += problem.landmarks();
+    ours.print("ours");
+    if (!ratio.empty()) {
+        peer.print("Ceres");
+        std::sort(ratio.begin(), ratio.end());
+        std::printf("  Ceres / ours: %.1f (median time); cost ours / Ceres: median %.5f, min %.5f, max %.5f\n",
+                    peer.quantile(&SolveOutcome::ms, 0.5) / ours.quantile(&SolveOutcome::ms, 0.5),
+                    ratio[ratio.size() / 2], ratio.front(), ratio.back());
+    }
 }
 
-/// A car that drives ahead, 25 frames on: the window then has ten.
-void object_window(benchmark::State& state) {
-    const auto system = std::make_unique<NormalEquations>();
-    const auto step = std::make_unique<SolverStep>();
-    const auto estimator = std::make_unique<ObjectEstimator>();
-    const auto problem = std::make_unique<ObjectProblem>();
-    for (auto _ : state) {
-        Times times;
-        for (int seed = 1; seed <= kProblems; ++seed) {
-            ObjectSceneOptions options;
-            options.features = 100;
-            options.transparent = true;
-            options.start.v = 4.0 + 0.02 * seed;
-            options.start.p = Vec3(12.0 + 0.05 * seed, -4.0 + 0.04 * seed, -0.9);
-            options.seed = static_cast<std::uint32_t>(seed);
-            ObjectScene scene(options);
-            Config config;
-            config.cues.ground = false;
-            estimator->init(scene.calibration(), config);
-            for (int k = 0; k < 25; ++k) {
-                scene.next();
-                benchmark::DoNotOptimize(estimator->solve(scene.window(), *system, *step));
-            }
-            scene.next();
-            ObjectProblemOptions what;
-            what.cues = config.cues;
-            time_problem(
-                *problem, [&](ObjectProblem& p) { p.begin(scene.window(), scene.calibration(), what); }, *system, *step,
-                times);
-        }
-        times.report(state);
+template <class Data>
+std::vector<std::unique_ptr<Data>> make(int count) {
+    std::vector<std::unique_ptr<Data>> out;
+    for (int seed = 1; seed <= count; ++seed) {
+        out.push_back(std::make_unique<Data>(seed));
     }
+    return out;
 }
-BENCHMARK(object_window)->Name("object, 10 frames x 100 stereo features, 5 iterations")->Iterations(1);
 
-void ego_window(benchmark::State& state) {
-    const auto system = std::make_unique<NormalEquations>();
-    const auto step = std::make_unique<SolverStep>();
-    const auto window = std::make_unique<EgoWindow>();
-    const auto problem = std::make_unique<EgoProblem>();
-    const auto features = std::make_unique<FrameFeatures>();
-    for (auto _ : state) {
-        Times times;
-        for (int seed = 1; seed <= kProblems; ++seed) {
-            DriveOptions options;
-            options.features = 500;
-            options.seed = static_cast<std::uint32_t>(seed);
-            DriveScene scene(options);
-            window->clear();
-            for (int k = 0; k < 14; ++k) {
-                scene.next(*features);
-                const int leaving = window->leaving();
-                if (leaving >= 0) {
-                    window->drop(leaving);
-                }
-                window->push(static_cast<std::uint32_t>(k + 1), scene.T_w_c().inverse());
-                window->take(*features, scene.calibration());
-                window->give_birth(scene.calibration());
-                window->frames.back().keyframe = true;
-            }
-            time_problem(
-                *problem, [&](EgoProblem& p) { p.begin(*window, scene.calibration()); }, *system, *step, times);
-        }
-        times.report(state);
+void run(bool object, bool ego, int count, bool with_peer) {
+    const SolveLimits five{5, 0.0};
+    const SolveLimits converged{50, 1e-6};
+    if (object) {
+        auto problems = make<ObjectProblemData>(count);
+        std::printf("object: %zu frames, %zu points, %zu observations\n", problems[0]->states.size(),
+                    problems[0]->points.size(), problems[0]->observations.size());
+        compare("object, 5 iterations", problems, five, with_peer);
+        compare("object, converged to 1e-6", problems, converged, with_peer);
     }
+    if (ego) {
+        auto problems = make<EgoProblemData>(count);
+        std::printf("ego: %zu frames, %zu points, %zu observations\n", problems[0]->T_c_w.size(),
+                    problems[0]->points.size(), problems[0]->observations.size());
+        compare("ego window, 5 iterations", problems, five, with_peer);
+        compare("ego window, converged to 1e-6", problems, converged, with_peer);
+    }
+    std::printf("scratch: normal equations %zu KiB, step %zu KiB, object problem %zu KiB, ego problem %zu KiB\n",
+                sizeof(NormalEquations) / 1024, sizeof(SolverStep) / 1024, sizeof(ObjectProblem) / 1024,
+                sizeof(EgoProblem) / 1024);
 }
-BENCHMARK(ego_window)->Name("ego window, 500 points, 5 iterations")->Iterations(1);
 
 }  // namespace
 }  // namespace semtrack::bench
+
+/// Arguments: object, ego or all; number of problems; alone: without Ceres.
+int main(int argc, char** argv) {
+    const bool object = argc < 2 || std::strcmp(argv[1], "ego") != 0;
+    const bool ego = argc < 2 || std::strcmp(argv[1], "object") != 0;
+    const int count = argc > 2 ? std::atoi(argv[2]) : 200;
+    if (count < 1) {
+        return 1;
+    }
+    semtrack::bench::run(object, ego, count, argc < 4 || std::strcmp(argv[3], "alone") != 0);
+    return 0;
+}

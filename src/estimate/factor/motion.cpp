@@ -10,6 +10,7 @@ namespace semtrack {
 namespace {
 
 constexpr double kShortestStep_s = 1e-3;
+constexpr double kShortestStep_m = 1e-3;
 
 ObjectState straight_step(const ObjectState& x, double dt_s, bool derivatives, Mat6& J) {
     const SinCos h = sin_cos(x.theta);
@@ -46,13 +47,23 @@ ObjectState stepped(const ObjectState& x, double dt_s, const MotionModelSpec& sp
 
 }  // namespace
 
+void set_ego_step(const Pose& T_before_l, const Pose& T_after_l, MotionModelSpec& spec) {
+    const Vec3 d = T_before_l.R.transpose() * T_before_l.t - T_after_l.R.transpose() * T_after_l.t;
+    spec.ego_step_m = std::sqrt(d(0) * d(0) + d(1) * d(1));
+    spec.ego_direction = Vec3(1.0, 0.0, 0.0);
+    if (spec.ego_step_m > kShortestStep_m) {
+        spec.ego_direction = Vec3(d(0) / spec.ego_step_m, d(1) / spec.ego_step_m, 0.0);
+    }
+}
+
 void motion_residual(const ObjectState& before, const ObjectState& after, double dt_s, const MotionModelSpec& spec,
                      bool derivatives, Vec6& r, Mat6& J_before, Mat6& J_after) {
     const ObjectState next = stepped(before, dt_s, spec, derivatives, J_before);
     const double root_dt = std::sqrt(dt_s > kShortestStep_s ? dt_s : kShortestStep_s);
     const MotionNoise& n = spec.noise;
     const double along = n.position * root_dt;
-    const double across = std::sqrt(along * along + spec.across_sigma_m * spec.across_sigma_m);
+    const double turned = n.ego_across * spec.ego_step_m;
+    const double across = std::sqrt(along * along + turned * turned);
     const double ux = spec.ego_direction(0);
     const double uy = spec.ego_direction(1);
     Mat6 W = Mat6::Zero();

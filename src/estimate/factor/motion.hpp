@@ -15,6 +15,7 @@ struct MotionNoise {
     double heading{0.1};   ///< rad / sqrt(s)
     double speed{1.0};     ///< m/s / sqrt(s)
     double steering{0.1};  ///< rad / sqrt(s)
+    double ego_across{0};  ///< of the camera's own step, across it: an error of its direction turns every path
 };
 
 struct MotionModelSpec {
@@ -22,11 +23,12 @@ struct MotionModelSpec {
     bool standing{false};     ///< f(x) = x with v = 0
     double wheelbase_m{2.5};  ///< vehicles
     MotionNoise noise{};
-    /// Across the camera's own step (its level direction in L, length 1) positions are less sure by so much: an error
-    /// of the ego-motion's direction turns the path.
-    Vec3 ego_direction{Vec3(1.0, 0.0, 0.0)};
-    double across_sigma_m{0};
+    Vec3 ego_direction{Vec3(1.0, 0.0, 0.0)};  ///< of the camera's step in L, level, of length 1 ...
+    double ego_step_m{0};                     ///< ... and its length
 };
+
+/// Fills the camera's step from its poses before and after.
+void set_ego_step(const Pose& T_before_l, const Pose& T_after_l, MotionModelSpec& spec);
 
 /// r [sigmas] of (p, theta, v, delta); J_before, J_after 6x6 by the states when derivatives is set.
 void motion_residual(const ObjectState& before, const ObjectState& after, double dt_s, const MotionModelSpec& spec,

@@ -13,22 +13,10 @@ namespace semtrack {
 
 namespace {
 
-constexpr double kShortestStep_m = 1e-3;
 constexpr double kMinSize_m = 0.2;  // a step must not turn a box inside out
 
 double time_step_s(const ObjectFrame& before, const ObjectFrame& after) {
     return 1e-6 * static_cast<double>(after.time_us - before.time_us);
-}
-
-/// Direction of the camera's level step, and how far off a point at rest may seem across it.
-double ego_step(const Pose& T_before_l, const Pose& T_after_l, Vec3& direction) {
-    const Vec3 d = T_before_l.R.transpose() * T_before_l.t - T_after_l.R.transpose() * T_after_l.t;
-    const double length = std::sqrt(d(0) * d(0) + d(1) * d(1));
-    if (!(length > kShortestStep_m)) {
-        return 0.0;
-    }
-    direction = Vec3(d(0) / length, d(1) / length, 0.0);
-    return kEgoAcross * length;
 }
 
 StereoPointMeasurement measurement(const FeatureObservation& o) {
@@ -67,22 +55,11 @@ void ObjectProblem::begin(const ObjectWindow& window, const Calibration& calibra
         views_[i] = {calibration.detection, {T_c_l.R, T_c_l.t + t_d_c}, calibration.width};
     }
     current_.size_m = window.size_m;
-    points_ = 0;
-    for (int s = 0; s < kMaxObjectFeatures; ++s) {
-        const auto slot = static_cast<std::size_t>(s);
-        const ObjectLandmark& landmark = window.landmarks[slot];
-        current_.f_o[slot] = landmark.f_o;
-        if (!options.cues.features || !landmark.valid) {
-            continue;
-        }
-        int seen = 0;
-        for (const ObjectFrame& frame : window.frames) {
-            seen += frame.features[slot].valid ? 1 : 0;
-        }
-        if (seen >= 2) {
-            slot_of_point_[static_cast<std::size_t>(points_++)] = static_cast<std::int16_t>(s);
-        }
+    for (std::size_t slot = 0; slot < current_.f_o.size(); ++slot) {
+        current_.f_o[slot] = window.landmarks[slot].f_o;
     }
+    features_.begin(window, calibration, options.cues.features);
+    features_current_ = false;
     choose_outlines();
 }
 
@@ -104,7 +81,13 @@ Mat3 ObjectProblem::feature_rotation(const ObjectState& x) const {
 
 double ObjectProblem::linearise(NormalEquations& system) {
     choose_outlines();
-    return evaluate(current_, &system);
+    if (!features_current_) {
+        features_cost_ = features_.evaluate(current_);
+        features_current_ = true;
+    }
+    const double cost = evaluate(current_, &system) + features_cost_;
+    features_.add_to(system);
+    return cost;
 }
 
 double ObjectProblem::try_step(const SolverStep& step) {
@@ -119,14 +102,16 @@ double ObjectProblem::try_step(const SolverStep& step) {
         x.delta += d(5);
     }
     candidate_.size_m += step.shared;
-    for (int p = 0; p < points_; ++p) {
-        const auto slot = static_cast<std::size_t>(slot_of_point_[static_cast<std::size_t>(p)]);
+    for (int p = 0; p < features_.points(); ++p) {
+        const std::size_t slot = features_.slot(p);
         candidate_.f_o[slot] += step.point[static_cast<std::size_t>(p)];
     }
     if (!(candidate_.size_m.minCoeff() > kMinSize_m)) {
         return 1e301;
     }
-    return evaluate(candidate_, nullptr);
+    features_current_ = false;
+    features_cost_ = features_.evaluate(candidate_);
+    return evaluate(candidate_, nullptr) + features_cost_;
 }
 
 void ObjectProblem::store(ObjectWindow& window) const {
@@ -134,15 +119,15 @@ void ObjectProblem::store(ObjectWindow& window) const {
         window.frames[k].state = current_.state[static_cast<std::size_t>(k)];
     }
     window.size_m = current_.size_m;
-    for (int p = 0; p < points_; ++p) {
-        const auto slot = static_cast<std::size_t>(slot_of_point_[static_cast<std::size_t>(p)]);
+    for (int p = 0; p < features_.points(); ++p) {
+        const std::size_t slot = features_.slot(p);
         window.landmarks[slot].f_o = current_.f_o[slot];
     }
 }
 
 double ObjectProblem::evaluate(const ObjectVariables& x, NormalEquations* system) {
     if (system != nullptr) {
-        system->clear(frames_, points_, true);
+        system->clear(frames_, features_.points(), true, Coupling::kPlanar);
     }
     double cost = add_priors(x, system);
     for (int k = 0; k < frames_; ++k) {
@@ -152,7 +137,7 @@ double ObjectProblem::evaluate(const ObjectVariables& x, NormalEquations* system
             cost += add_motion(x, k, system);
         }
     }
-    return cost + add_features(x, system);
+    return cost;
 }
 
 double ObjectProblem::add_boxes(const ObjectVariables& x, int k, NormalEquations* system) {
@@ -205,11 +190,11 @@ double ObjectProblem::add_ground(const ObjectVariables& x, int k, NormalEquation
 double ObjectProblem::add_motion(const ObjectVariables& x, int k, NormalEquations* system) {
     const double dt_s = time_step_s(window_->frames[k - 1], window_->frames[k]);
     MotionModelSpec spec = motion_;
-    spec.across_sigma_m = ego_step(window_->frames[k - 1].T_c_l, window_->frames[k].T_c_l, spec.ego_direction);
+    set_ego_step(window_->frames[k - 1].T_c_l, window_->frames[k].T_c_l, spec);
     if (!options_.cues.motion) {
         // Without M the frames stay connected by next to nothing, so that one of them without a box has a solution.
         spec.standing = false;
-        spec.noise = {30.0, 5.0, 3.0, 30.0, 1.0};
+        spec.noise = {30.0, 5.0, 3.0, 30.0, 1.0, 0.0};
     }
     Vec6 r;
     Mat6 J_before;
@@ -251,47 +236,6 @@ double ObjectProblem::add_priors(const ObjectVariables& x, NormalEquations* syst
             g(4) = speed_weight * oldest.v;
         }
         system->add_frame(k, H, g);
-    }
-    return cost;
-}
-
-double ObjectProblem::add_features(const ObjectVariables& x, NormalEquations* system) {
-    double cost = 0.0;
-    for (int k = 0; k < frames_; ++k) {
-        const ObjectFrame& frame = window_->frames[k];
-        const ObjectState& state = x.state[static_cast<std::size_t>(k)];
-        const Mat3 R_c_o = frame.T_c_l.R * feature_rotation(state);
-        const Vec3 t_c_o = frame.T_c_l * state.p;
-        for (int p = 0; p < points_; ++p) {
-            const auto slot = static_cast<std::size_t>(slot_of_point_[static_cast<std::size_t>(p)]);
-            const FeatureObservation& o = frame.features[slot];
-            if (!o.valid) {
-                continue;
-            }
-            const Vec3& f = x.f_o[slot];
-            StereoPointResidual z;
-            if (stereo_point_residual(*calibration_, R_c_o * f + t_c_o, measurement(o), system != nullptr, z) !=
-                Status::kOk) {
-                cost += 0.5 * kFeatureCull * kFeatureCull;
-                continue;
-            }
-            const Robust rho = huber(z.r.dot(z.r), kFeatureHuber);
-            cost += 0.5 * rho.rho;
-            if (system == nullptr) {
-                continue;
-            }
-            // x_c = R_c_l (p + R_z f) + t: by p R_c_l, by theta R_c_o (z x f), by f R_c_o
-            Mat3x6 J = Mat3x6::Zero();
-            J.leftCols<3>() = z.J * frame.T_c_l.R;
-            if (has_heading_) {
-                J.col(3) = z.J * (R_c_o * Vec3(-f(1), f(0), 0.0));
-            }
-            const Mat3 J_f = z.J * R_c_o;
-            const Vec3 wr = rho.weight * z.r;
-            system->add_frame(k, rho.weight * (J.transpose() * J), J.transpose() * wr);
-            system->add_point(p, rho.weight * (J_f.transpose() * J_f), J_f.transpose() * wr);
-            system->add_frame_point(k, p, rho.weight * (J.transpose() * J_f));
-        }
     }
     return cost;
 }

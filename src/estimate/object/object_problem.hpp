@@ -9,19 +9,14 @@
 #include "estimate/factor/ground.hpp"
 #include "estimate/factor/motion.hpp"
 #include "estimate/factor/size_prior.hpp"
+#include "estimate/object/object_features.hpp"
+#include "estimate/object/object_variables.hpp"
 #include "estimate/solver/normal_equations.hpp"
 #include "model/object_window.hpp"
 #include "semtrack/calibration.hpp"
 #include "semtrack/config.hpp"
 
 namespace semtrack {
-
-/// What the optimisation changes.
-struct ObjectVariables {
-    std::array<ObjectState, kObjectWindow> state{};
-    Vec3 size_m{Vec3::Ones()};
-    std::array<Vec3, kMaxObjectFeatures> f_o{};  // by slot
-};
 
 struct ObjectProblemOptions {
     Cues cues{};
@@ -33,18 +28,24 @@ public:
     /// Looks at the window without changing it; landmarks seen in two frames or more take part.
     void begin(const ObjectWindow& window, const Calibration& calibration, const ObjectProblemOptions& options);
     /// Takes up other variables (of the same window).
-    void set(const ObjectVariables& variables) { current_ = variables; }
+    void set(const ObjectVariables& variables) {
+        current_ = variables;
+        features_current_ = false;
+    }
     [[nodiscard]] const ObjectVariables& variables() const { return current_; }
     /// Copies the variables into the window they came from.
     void store(ObjectWindow& window) const;
 
     double linearise(NormalEquations& system);
     double try_step(const SolverStep& step);
-    void accept() { current_ = candidate_; }
+    void accept() {
+        current_ = candidate_;
+        features_current_ = true;
+    }
 
     /// Squared residual of one observation in sigmas; negative: behind the camera or not observed.
     [[nodiscard]] double feature_residual2(int frame, int slot) const;
-    [[nodiscard]] int landmarks() const { return points_; }
+    [[nodiscard]] int landmarks() const { return features_.points(); }
 
 private:
     double evaluate(const ObjectVariables& x, NormalEquations* system);
@@ -52,7 +53,6 @@ private:
     double add_ground(const ObjectVariables& x, int k, NormalEquations* system);
     double add_motion(const ObjectVariables& x, int k, NormalEquations* system);
     double add_priors(const ObjectVariables& x, NormalEquations* system);
-    double add_features(const ObjectVariables& x, NormalEquations* system);
     void choose_outlines();
     [[nodiscard]] Mat3 feature_rotation(const ObjectState& x) const;
 
@@ -63,13 +63,14 @@ private:
     SizePrior size_prior_{};
     bool has_heading_{true};
     int frames_{0};
-    int points_{0};
-    std::array<std::int16_t, kMaxObjectFeatures> slot_of_point_{};
     std::array<BoxOutline, kObjectWindow> outlines_{};
     std::array<DetectionView, kObjectWindow> views_{};
     ObjectVariables current_{};
     ObjectVariables candidate_{};
     EdgeResiduals edges_{};
+    ObjectFeatures features_{};
+    bool features_current_{false};  // features_ was evaluated last at current_
+    double features_cost_{0};       // ... with this cost
 };
 
 }  // namespace semtrack

@@ -3,25 +3,25 @@
 //   [ E^T C ] [ z ] = - [ w ]
 // B: frames (6 each) and the shared block (3); C: points (3x3 each); H = J^T J, (v, w) = J^T r.
 // Used by ego-motion (frame = camera pose) and by objects (frame = p, theta, v, delta; shared = size).
+// Points couple only to a frame's leading columns: all 6 of a camera pose, (p, theta) of an object. The other columns
+// come first in B, so that their rows are sparse when it is factorised. docs/solver.md has the derivation.
 #ifndef SEMTRACK_ESTIMATE_SOLVER_NORMAL_EQUATIONS_HPP
 #define SEMTRACK_ESTIMATE_SOLVER_NORMAL_EQUATIONS_HPP
 
 #include <array>
 #include <cstdint>
 
+#include "estimate/solver/point_lanes.hpp"
 #include "math/eigen.hpp"
 #include "semtrack/capacity.hpp"
 #include "semtrack/status.hpp"
 
 namespace semtrack {
 
-inline constexpr int kFrameBlock = 6;
-inline constexpr int kSharedBlock = 3;
-inline constexpr int kPointBlock = 3;
 inline constexpr int kSolverFrames = kObjectWindow > kEgoWindow + 1 ? kObjectWindow : kEgoWindow + 1;
-inline constexpr int kSolverPoints = kMaxBackgroundFeatures;
 inline constexpr int kReducedSize = kFrameBlock * kSolverFrames + kSharedBlock;
 static_assert(kMaxObjectFeatures <= kSolverPoints, "one workspace serves both problems");
+static_assert(kSolverFrames <= 16, "a bit per frame says whether it saw points");
 
 /// Update of every block, in the order of the problem's indices.
 struct SolverStep {
@@ -30,22 +30,31 @@ struct SolverStep {
     std::array<Vec3, kSolverPoints> point{};
 };
 
+/// Room for E^T of the larger problem: the poses'.
+inline constexpr std::size_t kCouplings =
+    static_cast<std::size_t>(kSolverFrames * kPointBlock * kFrameBlock) * kPointStride;
+
 class NormalEquations {
 public:
     /// Empties the system. Counts within the capacities are the caller's contract.
-    void clear(int frames, int points, bool shared);
+    void clear(int frames, int points, bool shared, Coupling coupling = Coupling::kPose);
 
     void add_frame(int i, const Mat6& H, const Vec6& g);
     void add_frame_pair(int i, int j, const Mat6& H_ij);  ///< i < j
     void add_shared(const Mat3& H, const Vec3& g);
     void add_frame_shared(int i, const Mat6x3& H_is);
     void add_point(int p, const Mat3& H, const Vec3& g);
-    void add_frame_point(int i, int p, const Mat6x3& H_ip);  ///< at most once per (i, p) is cheapest; adds up
+    /// One observation; rows behind the coupled columns are not read. Adds up.
+    void add_frame_point(int i, int p, const Mat6x3& H_ip);
+    /// All points of a frame at once: where to write them. Frame i must not have couplings yet.
+    [[nodiscard]] FramePoints open_frame(int i);
+    /// The same for a frame that is held: Et is null.
+    [[nodiscard]] FramePoints open_held_frame();
 
     /// One damped step: (H + lambda diag(H)) step = -g. kNotObservable: the reduced matrix is not positive definite
     /// (raise lambda), or an entry is not finite; step is then untouched. A point whose C is singular is damped on its
     /// own, so that it does not pass for a known one; a point without measurements gets a zero step.
-    /// Cost O(points frames^2 + (6 frames)^3), no allocation.
+    /// Cost O(points frames^2 + (6 frames)^3), whatever the frames saw; no allocation.
     Status solve(double lambda, SolverStep& step);
 
     /// Covariance of frame i (the 6x6 block of S^-1 without damping). kNotObservable as above.
@@ -54,43 +63,67 @@ public:
     Status shared_covariance(Mat3& out);
 
 private:
-    /// Three rows (one per coordinate of the point) of six columns: transposed, so that the inner loops run along it.
-    using PoseBlock = std::array<double, static_cast<std::size_t>(kPointBlock) * kFrameBlock>;
+    static constexpr int kStride = kReducedSize + 1;  // even: rows start at an even address
 
     void reduce(double lambda);
-    void reduce_point(int p);
-    [[nodiscard]] bool invert_point(int p, double lambda);
+    template <Coupling kCoupling>
+    void eliminate_points();
+    template <Coupling kCoupling>
+    void weigh_couplings(int i);
+    template <Coupling kCoupling>
+    void subtract_block(int i, int j);
+    template <Coupling kCoupling>
+    void substitute_points();
+    void invert_points(double lambda);
+    [[nodiscard]] bool invert_point(std::size_t p, double damping);
     [[nodiscard]] bool factor();
+    [[nodiscard]] bool factor_row(int k);
+    void subtract_rows(int k, int r, int end);
     [[nodiscard]] bool factor_undamped();
-    void covariance_column(int at, int c);
-    void substitute_point(int p, SolverStep& step) const;
+    void covariance_column(int row);
     void substitute(std::array<double, kReducedSize>& x);
-    [[nodiscard]] double& B(int r, int c) { return B_[static_cast<std::size_t>(r * kReducedSize + c)]; }
-    [[nodiscard]] double& S(int r, int c) { return S_[static_cast<std::size_t>(r * kReducedSize + c)]; }
-    [[nodiscard]] PoseBlock& Et(int p, int i) { return Et_[static_cast<std::size_t>(p * kSolverFrames + i)]; }
-    [[nodiscard]] const PoseBlock& Et(int p, int i) const {
-        return Et_[static_cast<std::size_t>(p * kSolverFrames + i)];
+    /// Row of column c of frame i, and of the shared block.
+    [[nodiscard]] int row_of(int i, int c) const {
+        return c < coupled_ ? coupled_begin_ + coupled_ * i + c : (kFrameBlock - coupled_) * i + c - coupled_;
     }
-    [[nodiscard]] bool sees(int p, int i) const {
-        return ((static_cast<unsigned>(seen_[static_cast<std::size_t>(p)]) >> static_cast<unsigned>(i)) & 1U) != 0U;
+    [[nodiscard]] int shared_row() const { return kFrameBlock * frames_; }
+    [[nodiscard]] double& B(int r, int c) { return B_[static_cast<std::size_t>(r * kStride + c)]; }
+    /// The upper triangle's entry of (r, c).
+    [[nodiscard]] double& B_upper(int r, int c) { return r < c ? B(r, c) : B(c, r); }
+    [[nodiscard]] double& S(int r, int c) { return S_[static_cast<std::size_t>(r * kStride + c)]; }
+    /// Row (k, c) of E^T of frame i: coordinate k of the point, column c of the frame.
+    [[nodiscard]] std::size_t coupling_at(int i, int k, int c) const {
+        return (static_cast<std::size_t>(i * kPointBlock + k) * static_cast<std::size_t>(coupled_) +
+                static_cast<std::size_t>(c)) *
+               coupling_stride_;
+    }
+    [[nodiscard]] bool sees_points(int i) const {
+        return ((static_cast<unsigned>(seeing_) >> static_cast<unsigned>(i)) & 1U) != 0U;
     }
 
     int frames_{0};
     int points_{0};
     bool shared_{false};
-    int size_{0};                                          // 6 frames + 3 shared
-    std::array<double, kReducedSize * kReducedSize> B_{};  // upper triangle, row by row
-    std::array<double, kReducedSize * kReducedSize> S_{};  // reduced matrix, then its factor
+    int coupled_{kFrameBlock};
+    int coupled_begin_{0};
+    std::size_t coupling_stride_{kPointStride};
+    std::size_t lanes_{0};
+    int size_{0};                                                         // 6 frames + 3 shared
+    alignas(kLaneBytes) std::array<double, kReducedSize * kStride> B_{};  // upper triangle, row by row
+    alignas(kLaneBytes) std::array<double, kReducedSize * kStride> S_{};  // reduced matrix, then its factor
     std::array<double, kReducedSize> v_{};
     std::array<double, kReducedSize> s_{};  // reduced right-hand side
     std::array<double, kReducedSize> x_{};
-    std::array<Mat3, kSolverPoints> C_{};
-    std::array<Mat3, kSolverPoints> C_inv_{};
-    std::array<Vec3, kSolverPoints> w_{};
-    std::array<bool, kSolverPoints> usable_{};
-    std::array<std::uint16_t, kSolverPoints> seen_{};  // bit i: frame i saw the point
-    std::array<PoseBlock, static_cast<std::size_t>(kSolverPoints) * kSolverFrames> Et_{};  // E^T
-    bool factored_{false};  // S holds the factor of the undamped system
+    std::array<double, kReducedSize> diagonal_inverse_{};  // of the factor
+    std::array<int, kReducedSize> row_end_{};              // of the factor: behind it a row is zero
+    alignas(kLaneBytes) std::array<PointRow, 6> C_{};      // 00 01 02 11 12 22
+    alignas(kLaneBytes) std::array<PointRow, 6> C_inv_{};  // zero: the point keeps its place
+    alignas(kLaneBytes) std::array<PointRow, 3> w_{};
+    alignas(kLaneBytes) std::array<PointRow, 3> z_{};                // C^-1 w, then the points' steps
+    alignas(kLaneBytes) std::array<PointRow, 3 * kFrameBlock> Y_{};  // E C^-1 of one frame, transposed as Et_
+    alignas(kLaneBytes) std::array<double, kCouplings> Et_{};        // frame by frame
+    std::uint16_t seeing_{0};                                        // bit i: frame i has couplings
+    bool factored_{false};                                           // S holds the factor of the undamped system
 };
 
 }  // namespace semtrack

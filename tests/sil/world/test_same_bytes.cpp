@@ -21,7 +21,7 @@ struct Bytes {
     std::uint64_t truth;   ///< poses, labels, viewpoints and detections of three frames, as text
 };
 
-constexpr std::array<Bytes, 24> kBytes{{
+constexpr std::array<Bytes, 25> kBytes{{
     {"street", 0x3ea63d12355f70a3ULL, 0x7bf5dc230c17c347ULL},
     {"empty", 0x4d25c6449778fc8eULL, 0x1ba1fccfb56776edULL},
     {"traffic", 0xdbe0dd5b2e3e678dULL, 0x3788ccb2ba00f44eULL},
@@ -29,6 +29,7 @@ constexpr std::array<Bytes, 24> kBytes{{
     {"crossing", 0xd68c479c472d037bULL, 0x0cd24310ffc67501ULL},
     {"cut_in", 0xe81d7c1e41320fa0ULL, 0x812a687ae0cd1138ULL},
     {"beside", 0x5a05af6e1945529fULL, 0xa8c4915e397919e4ULL},
+    {"passed", 0x6a506bbf5bc39276ULL, 0x87793ce542e4aa6dULL},
     {"turning", 0x25d2afe4850d278aULL, 0x797f67edd1f9fbbcULL},
     {"reversing", 0x697138d4b48b0bb6ULL, 0x1598de57755f2d5bULL},
     {"pedestrians", 0x2c191a903739d2b7ULL, 0xa35f1ca687fc6b94ULL},

@@ -17,8 +17,8 @@ constexpr double kNextViewCost = 0.5;   // ... by one class
 constexpr double kReverseCost = 3.0;     // of driving backwards, when no viewpoint was given: one in twenty
 constexpr double kReverseSpeed = 0.5;    // m/s
 constexpr double kOutsideSigma_m = 0.2;   // mirrors and bumpers, and the label's own tightness
-constexpr double kOutsideMost2 = 9.0;     // a point that is not on the object counts as three sigmas
-constexpr int kIndependentPoints = 8;
+constexpr double kOutsideMost2 = 4.0;     // a point that is not on the object counts as two sigmas
+constexpr int kIndependentPoints = 3;
 constexpr double kMaxTurn_rad = 1.2;    // to a twin
 constexpr double kBesideMiddle_rad = 0.35;  // of a class of two faces, which spans 1.4 rad
 constexpr double kPathSpeed = 1.5;          // m/s: slower ones have no direction
@@ -192,6 +192,10 @@ bool fresh_start(const ObjectWindow& window, const Calibration& calibration, int
             return false;
         }
         theta = atan2_rad(velocity(1), velocity(0));
+        const double apart = wrap_angle(theta - sight - middle_of_class(view));
+        if (apart > 0.5 * kPi || apart < -0.5 * kPi) {
+            theta = wrap_angle(theta + kPi);  // it reverses
+        }
         path = path_of_boxes(window, calibration, theta, x);
         velocity = path.velocity();
     }

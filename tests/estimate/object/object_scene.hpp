@@ -6,7 +6,6 @@
 #include <memory>
 #include <vector>
 
-#include "estimate/factor/size_prior.hpp"
 #include "math/so3.hpp"
 #include "model/bicycle.hpp"
 #include "model/box_geometry.hpp"
@@ -46,8 +45,8 @@ public:
         const ClassPrior& prior = class_prior(options.object_class);
         window_->size_m = prior.size_m;
         window_->prior_size_m = prior.size_m;
-        window_->prior_size_covariance = size_prior(options_.object_class).covariance;
         window_->size_covariance = prior.size_sigma_m.cwiseProduct(prior.size_sigma_m).asDiagonal();
+        window_->prior_size_covariance = window_->size_covariance;
         for (int i = 0; i < options.features; ++i) {
             points_o_.push_back(surface_point());
         }

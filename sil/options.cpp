@@ -21,6 +21,7 @@ struct Words {
     std::string cues;
     std::string extractor{"native"};
     std::string matcher{"patch"};
+    std::string mask{"on"};
     std::string images{"files"};
     std::string image_size;
     std::string ego{"estimate"};
@@ -53,6 +54,8 @@ void add_replay(CLI::App& app, ReplayOptions& o, Words& w) {
     app.add_option("--detection-delay", o.detection_delay, "frames that a detector's list comes late")
         ->check(CLI::Range(0, kMaxDetectionDelay));
     app.add_option("--cues", w.cues, "letters of S, M, F, P, G (default: all that the input allows)");
+    app.add_option("--mask", w.mask, "off: features on objects count as background (to show what masks are worth)")
+        ->check(CLI::IsMember({"on", "off"}));
     app.add_option("--extractor", w.extractor)->check(CLI::IsMember({"native", "opencv"}));
     app.add_option("--matcher", w.matcher)->check(CLI::IsMember({"patch", "orb"}));
     app.add_option("--images", w.images)->check(CLI::IsMember({"files", "none"}));
@@ -175,6 +178,7 @@ void finish_replay(const Words& w, ReplayOptions& o) {
     }
     o.config.cues = parse_cues(w, o.drive.images || o.simulated_features);
     o.config.camera_height_m = w.camera_height_m;
+    o.config.mask_objects = w.mask == "on";
     o.config.matcher = w.matcher == "orb" ? MatcherKind::kOrb : MatcherKind::kPatch;
     o.opencv_extractor = w.extractor == "opencv";
 #ifndef SEMTRACK_HAS_OPENCV

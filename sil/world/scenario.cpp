@@ -16,7 +16,7 @@ struct Entry {
     Scenario (*make)();
 };
 
-constexpr std::array<Entry, 25> kScenarios{{
+constexpr std::array<Entry, 29> kScenarios{{
     {"street", make_street_scenario},
     {"empty", make_empty_scenario},
     {"traffic", make_traffic_scenario},
@@ -42,6 +42,10 @@ constexpr std::array<Entry, 25> kScenarios{{
     {"detector_misses", make_detector_misses_scenario},
     {"no_viewpoint", make_no_viewpoint_scenario},
     {"short_street", make_short_street_scenario},
+    {"avenue", make_avenue_scenario},
+    {"avenue_residual", make_avenue_residual_scenario},
+    {"queue", make_queue_scenario},
+    {"queue_empty", make_queue_empty_scenario},
 }};
 
 // Spread of KITTI's cars: 0.12, 0.09, 0.4 m about the class mean.

@@ -50,6 +50,15 @@ namespace semtrack::sil::world {
 /// 5 degrees up and down again, with traffic.
 [[nodiscard]] Scenario make_hill_scenario();
 
+// scenario_ego.cpp: the ego-motion alone
+/// 340 m between parked cars, nothing moves, a rectification without residual.
+[[nodiscard]] Scenario make_avenue_scenario();
+/// The same with the residual that the other scenarios have.
+[[nodiscard]] Scenario make_avenue_residual_scenario();
+/// The traffic, a rectification without residual; the same street and ego-motion without road users.
+[[nodiscard]] Scenario make_queue_scenario();
+[[nodiscard]] Scenario make_queue_empty_scenario();
+
 // scenario_camera.cpp: the street through bad cameras and detectors
 /// Its first four seconds: the car ahead, the oncoming one, pedestrians, parked cars; the base of those below.
 [[nodiscard]] Scenario make_short_street_scenario();

@@ -15,18 +15,23 @@ Status stand_point(const PinholeCamera& camera, const Box2d& box, const std::arr
     if (extreme_vertices(camera, T_d_o, size_m, vertices) != Status::kOk) {
         return Status::kNotObservable;
     }
-    const double u = 0.5 * (box.left + box.right);
-    const Vec3 sideways = 0.5 * (vertices[kLeft].scaled(size_m) + vertices[kRight].scaled(size_m));
-    const Vec3 planes[3] = {{1.0, 0.0, -(u - camera.cx) / camera.fx},
-                            {0.0, 1.0, -(box.top - camera.cy) / camera.fy},
-                            {0.0, 1.0, -(box.bottom - camera.cy) / camera.fy}};
-    const Vec3 corners[3] = {T_d_o.R * sideways, T_d_o.R * vertices[kTop].scaled(size_m),
-                             T_d_o.R * vertices[kBottom].scaled(size_m)};
+    const auto column = [&](double u) { return Vec3(1.0, 0.0, -(u - camera.cx) / camera.fx); };
+    const auto row = [&](double v) { return Vec3(0.0, 1.0, -(v - camera.cy) / camera.fy); };
+    const Vec3 planes[kBoxEdges] = {column(box.left), column(box.right), row(box.top), row(box.bottom)};
     Mat3 A;
     Vec3 b;
-    for (int r = 0; r < 3; ++r) {
-        A.row(r) = planes[r].transpose();
-        b(r) = -planes[r].dot(corners[r]);
+    for (int e = 0; e < kBoxEdges; ++e) {
+        const double c = -planes[e].dot(T_d_o.R * vertices[static_cast<std::size_t>(e)].scaled(size_m));
+        if (e == kLeft) {
+            A.row(0) = 0.5 * planes[e].transpose();
+            b(0) = 0.5 * c;
+        } else if (e == kRight) {
+            A.row(0) += 0.5 * planes[e].transpose();
+            b(0) += 0.5 * c;
+        } else {
+            A.row(e - 1) = planes[e].transpose();
+            b(e - 1) = c;
+        }
     }
     const Vec3 p = A.inverse() * b;
     if (!(p(2) > kMinDepth_m) || !std::isfinite(p(0) + p(1) + p(2))) {

@@ -14,9 +14,10 @@ constexpr std::uint32_t kKeyframeDistance = 3;  // frames
 constexpr double kKeyframeSurvival = 0.7;
 constexpr double kKeyframeFlow_px = 2.0;  // a standing camera makes no keyframes
 constexpr double kCull = 5.0;             // sigmas
-// Matching errors of one landmark repeat from frame to frame, and the held poses count as known: the normal equations
-// are too sure of themselves.
-constexpr double kCovarianceInflation = 2.0;
+constexpr double kOutlier = 4.0;          // sigmas: no part of the noise
+// The sigmas of the measurements are bounds for bad light; what the residuals scatter says more. Worth so many degrees
+// of freedom, the sigmas count as measured, too.
+constexpr double kPriorFreedom = 30.0;
 
 }  // namespace
 
@@ -32,6 +33,8 @@ void EgoEstimator::init(const Calibration& calibration) {
     T_cur_prev_ = Pose{};
     dt_s_ = 0.0;
     covariance_.setZero();
+    response_.fill(Vec6::Zero());
+    noise_ = 1.0;
     keyframe_landmarks_ = 0;
 }
 
@@ -78,9 +81,15 @@ void EgoEstimator::restart(const EgoInput& input, const Pose& T_c_w) {
     window_.give_birth(calibration_);
 }
 
-bool EgoEstimator::track(const EgoInput& input, const Pose& T_c_w_predicted, NormalEquations& system, SolverStep& step,
-                         EgoResult& out, Mat6& covariance) {
-    push_frame(input.frame, T_c_w_predicted);
+bool EgoEstimator::track(const EgoInput& input, const MotionPrediction& predicted, NormalEquations& system,
+                         SolverStep& step, EgoResult& out, Mat6& covariance) {
+    push_frame(input.frame, predicted.T_cur_prev * T_w_c_.inverse());
+    if (input.motion != nullptr) {
+        VehicleStep& vehicle = window_.frames.back().step;
+        vehicle = vehicle_step(predicted);
+        vehicle.information *= noise_;  // residuals are in stated sigmas, which are larger than the noise
+        window_.frames.back().step_from = frame_;
+    }
     window_.take(*input.features, calibration_);
     EgoFrame& now = window_.frames.back();
     PoseFit fit;
@@ -110,6 +119,34 @@ void EgoEstimator::solve_window(NormalEquations& system, SolverStep& step, Mat6&
     if (problem_.newest_block() >= 0 && system.covariance(problem_.newest_block(), newest) == Status::kOk) {
         covariance = newest;
     }
+    noise_ = residual_variance();
+    covariance *= noise_;
+}
+
+// Of the window's residuals, in sigmas of the measurements.
+double EgoEstimator::residual_variance() const {
+    double sum = kPriorFreedom;
+    double freedom = kPriorFreedom;
+    for (const EgoLandmark& landmark : window_.landmarks) {
+        double square = 0.0;
+        int rows = 0;
+        for (const EgoFrame& frame : window_.frames) {
+            const EgoObservation& o = landmark.seen[static_cast<std::size_t>(frame.column)];
+            StereoPointResidual z;
+            if (landmark.valid && o.valid &&
+                stereo_point_residual(calibration_, frame.T_c_w * landmark.x_w, o.measurement(), false, z) ==
+                    Status::kOk &&
+                z.r.dot(z.r) < kOutlier * kOutlier) {
+                square += z.r.dot(z.r);
+                rows += o.stereo ? 3 : 2;
+            }
+        }
+        if (rows > 3) {  // a landmark takes three
+            sum += square;
+            freedom += rows - 3;
+        }
+    }
+    return sum / freedom;
 }
 
 void EgoEstimator::cull(EgoResult& out) {
@@ -186,20 +223,24 @@ void EgoEstimator::remember(const EgoInput& input, const Pose& T_w_c) {
 }
 
 void EgoEstimator::finish(const EgoInput& input, EgoStatus status, const Pose& T_w_c, const Mat6& motion_covariance,
-                          EgoResult& out) {
+                          const DisparityResponse& response, EgoResult& out) {
     out.status = status;
     out.dt_s = started_ ? 1e-6 * static_cast<double>(input.time_us - time_us_) : 0.0;
     out.T_w_c = T_w_c;
     out.T_prev_cur = started_ ? T_w_c_.inverse() * T_w_c : Pose{};
     T_cur_prev_ = out.T_prev_cur.inverse();
     dt_s_ = out.dt_s;
-    out.motion_covariance = motion_covariance;
     const Mat6 A = adjoint(T_cur_prev_);
     covariance_ = A * covariance_ * A.transpose() + motion_covariance;
+    for (std::size_t k = 0; k < kDisparityModes; ++k) {
+        response_[k] = A * response_[k] + response[k];
+    }
     if (status == EgoStatus::kGiven) {
         covariance_.setZero();
+        response_.fill(Vec6::Zero());
     }
-    out.covariance = covariance_;
+    out.motion_covariance = motion_covariance + covariance_of(response);
+    out.covariance = covariance_ + covariance_of(response_);
     T_w_c_ = T_w_c;
     time_us_ = input.time_us;
     frame_ = input.frame;
@@ -213,11 +254,13 @@ Status EgoEstimator::process(const EgoInput& input, NormalEquations& system, Sol
     out.outliers.clear();
     out.features = 0;
     out.inliers = 0;
+    DisparityResponse response;
+    response.fill(Vec6::Zero());
     if (input.given_T_w_c != nullptr) {
         window_.clear();
         const Pose T_w_c{orthonormalised(input.given_T_w_c->R), input.given_T_w_c->t};
         history_.add(input.frame, input.time_us, T_w_c);
-        finish(input, EgoStatus::kGiven, T_w_c, Mat6::Zero(), out);
+        finish(input, EgoStatus::kGiven, T_w_c, Mat6::Zero(), response, out);
         return Status::kOk;
     }
     const MotionPrediction predicted = predict(input.time_us, input.motion);
@@ -231,10 +274,14 @@ Status EgoEstimator::process(const EgoInput& input, NormalEquations& system, Sol
             out.features += m.owner == kBackground && m.tracked ? 1 : 0;
         }
         Mat6 covariance;
-        tracked = track(input, T_c_w_predicted, system, step, out, covariance);
+        tracked = track(input, predicted, system, step, out, covariance);
         if (tracked) {
             T_w_c = window_.frames.back().T_c_w.inverse();
-            motion_covariance = kCovarianceInflation * covariance;
+            motion_covariance = covariance;
+            const int last = window_.frames.size() - 2;
+            if (last >= 0) {
+                response = motion_response(window_, window_.frames[last], window_.frames.back(), calibration_);
+            }
         } else {
             restart(input, T_c_w_predicted);
         }
@@ -245,7 +292,7 @@ Status EgoEstimator::process(const EgoInput& input, NormalEquations& system, Sol
     T_w_c.R = orthonormalised(T_w_c.R);
     remember(input, T_w_c);
     const EgoStatus status = tracked ? EgoStatus::kTracked : started_ ? EgoStatus::kPredicted : EgoStatus::kStart;
-    finish(input, status, T_w_c, motion_covariance, out);
+    finish(input, status, T_w_c, motion_covariance, response, out);
     return status == EgoStatus::kPredicted && images ? Status::kNotConverged : Status::kOk;
 }
 

@@ -3,6 +3,7 @@
 #ifndef SEMTRACK_ESTIMATE_EGO_EGO_ESTIMATOR_HPP
 #define SEMTRACK_ESTIMATE_EGO_EGO_ESTIMATOR_HPP
 
+#include "estimate/ego/calibration_error.hpp"
 #include "estimate/ego/ego_prediction.hpp"
 #include "estimate/ego/ego_problem.hpp"
 #include "estimate/ego/pose_tracker.hpp"
@@ -51,17 +52,18 @@ public:
 private:
     [[nodiscard]] MotionPrediction predict(std::int64_t time_us, const VehicleMotion* motion) const;
     [[nodiscard]] bool acceptable(const EgoInput& input) const;
-    [[nodiscard]] bool track(const EgoInput& input, const Pose& T_c_w_predicted, NormalEquations& system,
+    [[nodiscard]] bool track(const EgoInput& input, const MotionPrediction& predicted, NormalEquations& system,
                              SolverStep& step, EgoResult& out, Mat6& covariance);
     void push_frame(std::uint32_t frame, const Pose& T_c_w);
     void restart(const EgoInput& input, const Pose& T_c_w);
     void solve_window(NormalEquations& system, SolverStep& step, Mat6& covariance);
+    [[nodiscard]] double residual_variance() const;
     void cull(EgoResult& out);
     [[nodiscard]] bool needs_keyframe() const;
     void make_keyframe();
     void remember(const EgoInput& input, const Pose& T_w_c);
     void finish(const EgoInput& input, EgoStatus status, const Pose& T_w_c, const Mat6& motion_covariance,
-                EgoResult& out);
+                const DisparityResponse& response, EgoResult& out);
 
     Calibration calibration_{};
     Pose T_v_c_{};
@@ -72,10 +74,12 @@ private:
     std::uint32_t frame_{0};
     std::int64_t time_us_{0};
     Pose T_w_c_{};
-    Pose T_cur_prev_{};  // last motion
-    double dt_s_{0};     // ... and the time it took
-    Mat6 covariance_{Mat6::Zero()};
-    int keyframe_landmarks_{0};  // that the newest keyframe saw
+    Pose T_cur_prev_{};              // last motion
+    double dt_s_{0};                 // ... and the time it took
+    Mat6 covariance_{Mat6::Zero()};  // of T_w_c by noise
+    DisparityResponse response_{};   // of T_w_c
+    double noise_{1.0};              // variance of the residuals, in stated sigmas
+    int keyframe_landmarks_{0};      // that the newest keyframe saw
 };
 
 }  // namespace semtrack

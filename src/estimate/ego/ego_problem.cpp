@@ -8,6 +8,7 @@ namespace semtrack {
 namespace {
 
 constexpr double kTukey = 4.0;  // sigmas
+constexpr double kHuber = 3.5;  // sigmas of all six together: 95 %
 // A point that falls behind a camera costs what an outlier costs.
 constexpr double kBehindCost = 0.5 * kTukey * kTukey / 3.0;
 constexpr int kMinSeen = 6;  // landmarks that a free frame must see
@@ -93,7 +94,36 @@ double EgoProblem::evaluate(const Variables& x, NormalEquations* system) const {
             }
         }
     }
+    for (int k = 1; k < frames_; ++k) {
+        cost += add_vehicle_step(x, k, system);
+    }
     return cost;
+}
+
+double EgoProblem::add_vehicle_step(const Variables& x, int k, NormalEquations* system) const {
+    const EgoFrame& now = window_->frames[k];
+    const int block = block_[static_cast<std::size_t>(k)];
+    if (!now.step.valid || block < 0 || window_->frames[k - 1].frame != now.step_from) {
+        return 0.0;
+    }
+    Vec6 e;
+    Mat6 J_now;
+    Mat6 J_before;
+    vehicle_residual(x.T_c_w[static_cast<std::size_t>(k)], x.T_c_w[static_cast<std::size_t>(k - 1)], now.step, e, J_now,
+                     J_before);
+    const Vec6 weighted = now.step.information * e;
+    const Robust rho = huber(e.dot(weighted), kHuber);
+    if (system != nullptr) {
+        const Mat6 wJ_now = rho.weight * now.step.information * J_now;
+        system->add_frame(block, J_now.transpose() * wJ_now, rho.weight * J_now.transpose() * weighted);
+        const int before = block_[static_cast<std::size_t>(k - 1)];
+        if (before >= 0) {
+            const Mat6 wJ_before = rho.weight * now.step.information * J_before;
+            system->add_frame(before, J_before.transpose() * wJ_before, rho.weight * J_before.transpose() * weighted);
+            system->add_frame_pair(before, block, J_before.transpose() * wJ_now);
+        }
+    }
+    return 0.5 * rho.rho;
 }
 
 double EgoProblem::add_observation(const Variables& x, int p, int k, NormalEquations* system) const {

@@ -1,5 +1,6 @@
 // Sliding-window bundle adjustment of the background, paper Eq. (3)-(5) [eq:ego-motion2], for levenberg_marquardt():
-//   sum over landmarks and frames of rho(|r_Z|^2), Tukey; landmarks are eliminated.
+//   sum over landmarks and frames of rho(|r_Z|^2), Tukey; landmarks are eliminated. Where the vehicle says how it moved
+// between two frames that follow each other, that is a further factor (vehicle_factor.hpp).
 // The newest kFreeFrames poses move, the older ones are held: with more of them free the chain of re-estimated motions
 // changes its length by 0.1 % from frame to frame, which the newest pose shows as jumps of centimetres.
 #ifndef SEMTRACK_ESTIMATE_EGO_EGO_PROBLEM_HPP
@@ -40,6 +41,7 @@ private:
     };
     void take_landmarks(bool seen_now, int first_free, std::array<int, kEgoFrames>& seen_by_frame);
     double evaluate(const Variables& x, NormalEquations* system) const;
+    double add_vehicle_step(const Variables& x, int k, NormalEquations* system) const;
     double add_observation(const Variables& x, int p, int k, NormalEquations* system) const;
     [[nodiscard]] const EgoObservation& observation(int p, int k) const {
         return window_->seen(landmark_of_point_[static_cast<std::size_t>(p)], window_->frames[k]);

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 
+#include "estimate/ego/vehicle_factor.hpp"
 #include "estimate/factor/stereo_point.hpp"
 #include "math/pose.hpp"
 #include "model/feature.hpp"
@@ -26,6 +27,8 @@ struct EgoFrame {
     int column{0};  ///< where the landmarks keep what this frame saw
     bool keyframe{false};
     Pose T_c_w{};
+    std::uint32_t step_from{0};  ///< frame that the vehicle's step starts at
+    VehicleStep step{};          ///< what the vehicle says of the motion from there
 };
 
 struct EgoObservation {

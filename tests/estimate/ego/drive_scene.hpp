@@ -9,6 +9,7 @@
 #include "math/camera.hpp"
 #include "math/so3.hpp"
 #include "model/feature.hpp"
+#include "semtrack/types.hpp"
 #include "support/noise.hpp"
 
 namespace semtrack {
@@ -17,9 +18,11 @@ struct DriveOptions {
     int features{250};
     double noise_px{0.2};
     double step_m{0.8};
-    double turn_rad{0.01};      ///< a frame
-    double outlier_share{0.0};  ///< of the features of a frame, off by 5 to 30 px
-    double survival{0.85};      ///< of a feature, from frame to frame
+    double gain_m{0.0};              ///< of the step, a frame
+    double turn_rad{0.01};           ///< a frame
+    double disparity_error_px{0.0};  ///< of all features alike
+    double outlier_share{0.0};       ///< of the features of a frame, off by 5 to 30 px
+    double survival{0.85};           ///< of a feature, from frame to frame
     std::uint32_t seed{1};
 };
 
@@ -28,7 +31,7 @@ class DriveScene {
 public:
     static constexpr std::int64_t kFrame_us = 100000;
 
-    explicit DriveScene(const DriveOptions& options) : options_(options), rng_(options.seed) {
+    explicit DriveScene(const DriveOptions& options) : options_(options), rng_(options.seed), step_m_(options.step_m) {
         calibration_.width = 1242;
         calibration_.height = 375;
         calibration_.left = {720.0, 720.0, 610.0, 173.0};
@@ -40,12 +43,22 @@ public:
     [[nodiscard]] const Calibration& calibration() const { return calibration_; }
     [[nodiscard]] const Pose& T_w_c() const { return T_w_c_; }
 
+    /// Speed and yaw rate of the last motion as wheels and gyroscope measure them.
+    [[nodiscard]] VehicleMotion vehicle_motion() {
+        VehicleMotion out;
+        const double dt_s = 1e-6 * static_cast<double>(kFrame_us);
+        out.speed = step_m_ / dt_s + out.sigma_speed * normal(rng_);
+        out.yaw_rate = -options_.turn_rad / dt_s + out.sigma_yaw_rate * normal(rng_);
+        return out;
+    }
+
     /// Moves the camera on (not before frame 0) and measures.
     void next(FrameFeatures& out) {
         if (frame_ > 0) {
             Pose motion;
             motion.R = so3_exp(Vec3(0.0, options_.turn_rad, 0.0));
-            motion.t = Vec3(0.0, 0.0, options_.step_m);
+            step_m_ += options_.gain_m;
+            motion.t = Vec3(0.0, 0.0, step_m_);
             T_w_c_ = T_w_c_ * motion;
         }
         ++frame_;
@@ -93,8 +106,8 @@ private:
         const double jump = wrong ? between(rng_, 5.0, 30.0) * (rng_.below(2) == 0 ? 1.0 : -1.0) : 0.0;
         m.u = static_cast<float>(p(0) + jump + options_.noise_px * normal(rng_));
         m.v = static_cast<float>(p(1) + 0.5 * jump + options_.noise_px * normal(rng_));
-        m.u_right =
-            static_cast<float>(right_column(calibration_, p(0), x_c(2)) + jump + options_.noise_px * normal(rng_));
+        m.u_right = static_cast<float>(right_column(calibration_, p(0), x_c(2)) + jump - options_.disparity_error_px +
+                                       options_.noise_px * normal(rng_));
         m.v_right = m.v;
         m.previous_u = l.last.u;
         m.previous_v = l.last.v;
@@ -107,6 +120,7 @@ private:
 
     DriveOptions options_;
     Rng rng_;
+    double step_m_;
     Calibration calibration_{};
     Pose T_w_c_{};
     std::uint32_t next_id_{1};

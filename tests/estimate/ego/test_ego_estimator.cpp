@@ -24,8 +24,9 @@ struct DriveErrors {
 
 class EgoEstimatorTest : public ::testing::Test {
 protected:
-    Status process(const FrameFeatures* features) {
+    Status process(const FrameFeatures* features, const VehicleMotion* motion = nullptr) {
         EgoInput in;
+        in.motion = motion;
         in.frame = ++frame_;
         in.time_us = DriveScene::kFrame_us * frame_;
         in.features = features;

@@ -21,7 +21,7 @@ struct Bytes {
     std::uint64_t truth;   ///< poses, labels, viewpoints and detections of three frames, as text
 };
 
-constexpr std::array<Bytes, 25> kBytes{{
+constexpr std::array<Bytes, 29> kBytes{{
     {"street", 0x3ea63d12355f70a3ULL, 0x7bf5dc230c17c347ULL},
     {"empty", 0x4d25c6449778fc8eULL, 0x1ba1fccfb56776edULL},
     {"traffic", 0xdbe0dd5b2e3e678dULL, 0x3788ccb2ba00f44eULL},
@@ -47,6 +47,10 @@ constexpr std::array<Bytes, 25> kBytes{{
     {"detector_misses", 0x3ea63d12355f70a3ULL, 0x81cbb2d0fc7128d1ULL},
     {"no_viewpoint", 0x3ea63d12355f70a3ULL, 0x16fa4517356dd213ULL},
     {"short_street", 0x3ea63d12355f70a3ULL, 0x7bf5dc230c17c347ULL},
+    {"avenue", 0x5f0d7d23f2cad4faULL, 0xf04585b728ded82fULL},
+    {"avenue_residual", 0x3480398357b1c3b5ULL, 0xf04585b728ded82fULL},
+    {"queue", 0xa97d70da2c1eadb5ULL, 0x3788ccb2ba00f44eULL},
+    {"queue_empty", 0x2ccaa0746d408096ULL, 0xf517b20ed2f63eedULL},
 }};
 
 std::uint64_t image_bytes(const std::string& name) {

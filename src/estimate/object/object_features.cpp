@@ -47,9 +47,10 @@ struct Information {
 
 // J_x R has the rows (w f / z) (R_row - slope R_2): their weighted squares make M.
 inline Information information(const Transform2& R, const Double2& baseline, const Observed& o) {
-    const Double2 gx = o.focal_u * o.inv_z;
-    const Double2 gy = o.focal_v * o.inv_z;
-    const Double2 gr = o.focal_right * o.inv_z;
+    const Double2 scale = o.robust * o.inv_z;
+    const Double2 gx = o.focal_u * scale;
+    const Double2 gy = o.focal_v * scale;
+    const Double2 gr = o.focal_right * scale;
     const Double2 x_right = o.x - baseline * o.inv_z;
     const Double2 a0 = gx * (R.r00 - o.x * R.r20);
     const Double2 a1 = gx * (R.r01 - o.x * R.r21);
@@ -60,12 +61,9 @@ inline Information information(const Transform2& R, const Double2& baseline, con
     const Double2 c0 = gr * (R.r00 - x_right * R.r20);
     const Double2 c1 = gr * (R.r01 - x_right * R.r21);
     const Double2 c2 = gr * (R.r02 - x_right * R.r22);
-    const Double2 s = o.robust;
-    return {s * (a0 * a0 + b0 * b0 + c0 * c0),       s * (a0 * a1 + b0 * b1 + c0 * c1),
-            s * (a0 * a2 + b0 * b2 + c0 * c2),       s * (a1 * a1 + b1 * b1 + c1 * c1),
-            s * (a1 * a2 + b1 * b2 + c1 * c2),       s * (a2 * a2 + b2 * b2 + c2 * c2),
-            s * (a0 * o.r0 + b0 * o.r1 + c0 * o.r2), s * (a1 * o.r0 + b1 * o.r1 + c1 * o.r2),
-            s * (a2 * o.r0 + b2 * o.r1 + c2 * o.r2)};
+    return {a0 * a0 + b0 * b0 + c0 * c0,       a0 * a1 + b0 * b1 + c0 * c1,       a0 * a2 + b0 * b2 + c0 * c2,
+            a1 * a1 + b1 * b1 + c1 * c1,       a1 * a2 + b1 * b2 + c1 * c2,       a2 * a2 + b2 * b2 + c2 * c2,
+            a0 * o.r0 + b0 * o.r1 + c0 * o.r2, a1 * o.r0 + b1 * o.r1 + c1 * o.r2, a2 * o.r0 + b2 * o.r1 + c2 * o.r2};
 }
 
 /// Sums over the points of a frame, two lanes apart until the end: the frame's own block.
@@ -243,7 +241,11 @@ double ObjectFeatures::robust_cost(FrameLanes& lanes) const {
         } else if (!(r2 <= k * k)) {
             const double r = std::sqrt(r2);
             lanes.rho[p] = 2.0 * k * r - k * k;
-            lanes.robust[p] = k / r;
+            const double root = std::sqrt(k / r);
+            lanes.robust[p] = root;
+            for (Lane& residual : lanes.r) {
+                residual[p] *= root;
+            }
         }
     }
     return 0.5 * sum_lanes(lanes.rho, lane_count_);

@@ -48,7 +48,7 @@ private:
         Lane inv_z{};
         std::array<Lane, 3> r{};
         Lane rho{};
-        Lane robust{};
+        Lane robust{};  // root of the weight, which r has already
     };
     void gather_frame(const ObjectFrame& frame, FrameLanes& lanes) const;
     void project(const ObjectState& state, FrameLanes& lanes) const;

@@ -147,20 +147,42 @@ double ObjectProblem::add_boxes(const ObjectVariables& x, int k, NormalEquations
     }
     box_edge_residuals(x.state[i], window_->object_class, x.size_m, views_[i], outlines_[i], window_->frames[k].box,
                        system != nullptr, edges_);
+    // An edge sees p, theta and the size: only that part of the frame's block is summed.
+    constexpr int kSeen = static_cast<int>(Coupling::kPlanar);
     double cost = 0.0;
+    Mat6 H = Mat6::Zero();
+    Vec6 g = Vec6::Zero();
+    Mat6x3 H_size = Mat6x3::Zero();
+    Mat3 H_shared = Mat3::Zero();
+    Vec3 g_shared = Vec3::Zero();
     for (const EdgeResidual& e : edges_) {
         if (!e.valid) {
             continue;
         }
         const Robust huber_edge = huber(e.r * e.r, kEdgeHuber);
         cost += 0.5 * huber_edge.rho;
-        if (system == nullptr) {
-            continue;
+        for (int r = 0; system != nullptr && r < kSeen; ++r) {
+            const double wJ = huber_edge.weight * e.J_state(r);
+            for (int c = r; c < kSeen; ++c) {
+                H(r, c) += wJ * e.J_state(c);
+            }
+            for (int c = 0; c < kSharedBlock; ++c) {
+                H_size(r, c) += wJ * e.J_size(c);
+            }
+            g(r) += wJ * e.r;
         }
-        const double w = huber_edge.weight;
-        system->add_frame(k, w * (e.J_state * e.J_state.transpose()), w * e.r * e.J_state);
-        system->add_shared(w * (e.J_size * e.J_size.transpose()), w * e.r * e.J_size);
-        system->add_frame_shared(k, w * (e.J_state * e.J_size.transpose()));
+        for (int r = 0; system != nullptr && r < kSharedBlock; ++r) {
+            const double wJ = huber_edge.weight * e.J_size(r);
+            for (int c = r; c < kSharedBlock; ++c) {
+                H_shared(r, c) += wJ * e.J_size(c);
+            }
+            g_shared(r) += wJ * e.r;
+        }
+    }
+    if (system != nullptr) {
+        system->add_frame(k, H, g);
+        system->add_frame_shared(k, H_size);
+        system->add_shared(H_shared, g_shared);
     }
     return cost;
 }
@@ -202,9 +224,19 @@ double ObjectProblem::add_motion(const ObjectVariables& x, int k, NormalEquation
     motion_residual(x.state[static_cast<std::size_t>(k - 1)], x.state[static_cast<std::size_t>(k)], dt_s, spec,
                     system != nullptr, r, J_before, J_after);
     if (system != nullptr) {
+        // J_after is diagonal: the square roots of the weights.
+        Mat6 H = Mat6::Zero();
+        Mat6 H_pair;
+        for (int c = 0; c < kFrameBlock; ++c) {
+            const double w = J_after(c, c);
+            H(c, c) = w * w;
+            for (int row = 0; row < kFrameBlock; ++row) {
+                H_pair(row, c) = J_before(c, row) * w;
+            }
+        }
         system->add_frame(k - 1, J_before.transpose() * J_before, J_before.transpose() * r);
-        system->add_frame(k, J_after.transpose() * J_after, J_after.transpose() * r);
-        system->add_frame_pair(k - 1, k, J_before.transpose() * J_after);
+        system->add_frame(k, H, J_after.diagonal().cwiseProduct(r));
+        system->add_frame_pair(k - 1, k, H_pair);
     }
     return 0.5 * r.dot(r);
 }

@@ -154,6 +154,41 @@ TEST(Motion, JacobiansMatchCentralDifferencesForEveryModel) {
     EXPECT_EQ(checked, 400);
 }
 
+TEST(Motion, JacobiansMatchAtTheEdgesOfEveryKindOfMotion) {
+    int checked = 0;
+    for (const double theta : {-kPi, -0.5 * kPi, 0.0, 0.5 * kPi, kPi}) {
+        for (const double v : {-6.0, 0.0, 1e-3, 15.0, 40.0}) {
+            for (const double delta : {-0.65, 0.0, 0.65}) {
+                for (const bool standing : {false, true}) {
+                    for (const MotionModel model : {MotionModel::kVehicle, MotionModel::kPedestrian}) {
+                        MotionModelSpec spec;
+                        spec.model = model;
+                        spec.standing = standing;
+                        const ObjectState before{Vec3(20.0, -3.0, -0.9), theta, v, delta};
+                        Vec6 off;
+                        off << 0.2, -0.1, 0.05, 0.04, -0.3, 0.02;
+                        const ObjectState after = plus(bicycle_step(before, spec.wheelbase_m, 0.1), off);
+                        Vec6 r;
+                        Mat6 J_before;
+                        Mat6 J_after;
+                        motion_residual(before, after, 0.1, spec, true, r, J_before, J_after);
+                        EXPECT_EQ(Mat6(J_after.diagonal().asDiagonal()), J_after) << "the solver relies on it";
+                        const auto at = [&](const Vec6& d) {
+                            Vec6 out;
+                            Mat6 unused_a;
+                            Mat6 unused_b;
+                            motion_residual(plus(before, d), after, 0.1, spec, false, out, unused_a, unused_b);
+                            return std::optional<Vec6>(out);
+                        };
+                        checked += test::expect_jacobian<6, 6>(J_before, at) ? 1 : 0;
+                    }
+                }
+            }
+        }
+    }
+    EXPECT_EQ(checked, 5 * 5 * 3 * 2 * 2);
+}
+
 TEST(Motion, ExactStepHasNoResidualAndHeadingsMeetAcrossPi) {
     MotionModelSpec spec;
     const ObjectState before{Vec3(10.0, 0.0, 0.0), kPi - 0.01, 8.0, 0.2};

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "math/so3.hpp"
+#include "math/trig.hpp"
 #include "support/jacobian_check.hpp"
 
 namespace semtrack {
@@ -115,6 +116,43 @@ TEST(StereoPoint, JacobiansMatchCentralDifferencesAcrossTheFrustum) {
         }
     }
     EXPECT_EQ(checked, 6 * 3 * 3 * 2 * 3);
+}
+
+TEST(StereoPoint, JacobiansByAnObjectsStateAndPointMatchCentralDifferencesAcrossTheFrustum) {
+    const Calibration c = pair_with_different_centres();
+    Mat3 R_c_l;
+    R_c_l << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+    const Pose T_c_l{so3_exp(Vec3(0.02, -0.03, 0.01)) * R_c_l, Vec3(0.4, 1.6, -0.3)};
+    const Vec3 f(1.9, -0.8, 0.6);
+    using Vec7 = Eigen::Matrix<double, 7, 1>;  // p, theta, f
+    int checked = 0;
+    for (const double depth : {2.0, 5.0, 20.0, 60.0, 120.0}) {
+        for (const double u : {0.0, 620.0, 1241.0}) {
+            for (const double v : {0.0, 170.0, 374.0}) {
+                for (const double theta : {-kPi, -1.6, 0.0, 0.7, kPi}) {
+                    const Vec3 x_c = bearing(c.left, u, v) * depth;
+                    const StereoPointMeasurement z = measured(c, x_c, true);
+                    const Vec3 p = T_c_l.inverse() * x_c - rot_z(theta) * f;
+                    const auto at = [&](const Vec7& d) -> std::optional<Vec3> {
+                        StereoPointResidual out;
+                        const Vec3 moved =
+                            T_c_l * (p + d.head<3>() + rot_z(wrap_angle(theta + d(3))) * Vec3(f + d.tail<3>()));
+                        return stereo_point_residual(c, moved, z, false, out) == Status::kOk
+                                   ? std::optional<Vec3>(out.r)
+                                   : std::nullopt;
+                    };
+                    StereoPointResidual out;
+                    ASSERT_EQ(stereo_point_residual(c, x_c, z, true, out), Status::kOk);
+                    Eigen::Matrix<double, 3, 7> J;
+                    J.leftCols<3>() = out.J * T_c_l.R;
+                    J.col(3) = out.J * (T_c_l.R * (rot_z(theta) * Vec3(-f(1), f(0), 0.0)));
+                    J.rightCols<3>() = out.J * T_c_l.R * rot_z(theta);
+                    checked += test::expect_jacobian<3, 7>(J, at, 1e-6 * depth) ? 1 : 0;
+                }
+            }
+        }
+    }
+    EXPECT_EQ(checked, 5 * 3 * 3 * 5);
 }
 
 }  // namespace

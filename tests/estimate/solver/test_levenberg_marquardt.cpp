@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <memory>
+#include <vector>
 
 namespace semtrack {
 namespace {
@@ -116,6 +117,77 @@ TEST(LevenbergMarquardt, AFailedFactorisationRaisesLambdaUntilTheMatrixIsPositiv
     const LmReport report = levenberg_marquardt(problem, options, *w.system, *w.step);
     EXPECT_GE(problem.accepted, 1);
     EXPECT_GE(report.iterations, 4) << "lambda starts at 1e-4";
+}
+
+/// Costs by script, one per candidate.
+struct Sequence {
+    std::vector<double> candidates;
+    std::size_t at{0};
+    double current{1.0};
+    double best{1.0};
+    int linearised{0};
+    std::vector<double> steps;  // of the first parameter: smaller as lambda grows
+    double linearise(NormalEquations& system) {
+        ++linearised;
+        system.clear(1, 0, false);
+        system.add_frame(0, Mat6::Identity(), Vec6::Ones());
+        return current;
+    }
+    double try_step(const SolverStep& step) {
+        steps.push_back(step.frame[0](0));
+        return candidates[at++];
+    }
+    void accept() {
+        current = candidates[at - 1];
+        best = current < best ? current : best;
+    }
+};
+
+TEST(LevenbergMarquardt, ARefusedStepRaisesLambdaWithoutAnotherLinearisationAndTheBestStateIsHeld) {
+    Workspace w;
+    Sequence problem;
+    problem.candidates = {0.5, 0.9, 0.8, 0.4, 0.6};
+    LmOptions options;
+    options.initial_lambda = 0.1;
+    const LmReport report = levenberg_marquardt(problem, options, *w.system, *w.step);
+    EXPECT_EQ(report.reason, LmReason::kIterations);
+    EXPECT_EQ(report.accepted, 2);
+    EXPECT_EQ(report.iterations, 5);
+    EXPECT_EQ(report.final_cost, 0.4);
+    EXPECT_EQ(problem.current, 0.4);
+    EXPECT_EQ(problem.best, 0.4);
+    EXPECT_EQ(problem.linearised, 3) << "at the start and after each accepted step";
+    ASSERT_EQ(problem.steps.size(), 5U);
+    const std::vector<double> lambda{0.1, 0.01, 0.1, 1.0, 0.1};  // down when accepted, up when refused
+    for (std::size_t k = 0; k < lambda.size(); ++k) {
+        EXPECT_NEAR(problem.steps[k], -1.0 / (1.0 + lambda[k]), 1e-12) << k;
+    }
+}
+
+TEST(LevenbergMarquardt, EveryReasonIsReachedAndThereIsNoOther) {
+    Workspace w;
+    std::vector<int> reached(5, 0);
+    const auto note = [&](const LmReport& report) {
+        ASSERT_LT(static_cast<std::size_t>(report.reason), reached.size());
+        ++reached[static_cast<std::size_t>(report.reason)];
+    };
+    Sequence converging;
+    converging.candidates = {0.5, 0.5 - 1e-9};
+    note(levenberg_marquardt(converging, LmOptions{}, *w.system, *w.step));
+    Sequence running;
+    running.candidates = {0.5, 0.4, 0.3, 0.2, 0.1};
+    note(levenberg_marquardt(running, LmOptions{}, *w.system, *w.step));
+    Sequence stuck;
+    stuck.candidates = {2.0, 2.0, 2.0, 2.0, 2.0};
+    note(levenberg_marquardt(stuck, LmOptions{}, *w.system, *w.step));
+    Scripted singular;
+    singular.H.setZero();
+    note(levenberg_marquardt(singular, LmOptions{}, *w.system, *w.step));
+    Scripted invalid;
+    invalid.start = std::numeric_limits<double>::quiet_NaN();
+    note(levenberg_marquardt(invalid, LmOptions{}, *w.system, *w.step));
+    EXPECT_EQ(reached, std::vector<int>(5, 1));
+    EXPECT_EQ(static_cast<int>(LmReason::kInvalidCost), 4) << "the last one";
 }
 
 TEST(LevenbergMarquardt, AMatrixThatNoLambdaMendsIsNotObservable) {

@@ -20,6 +20,7 @@ constexpr double kHuber = 2.0;  // sigmas: a car on a drive-way, or of another s
 void GroundEstimator::init(const Config& config) {
     height_m_ = config.camera_height_m;
     const Vec3 sigma(config.camera_height_sigma_m, kSlopeForwardSigma, kSlopeLeftSigma);
+    fresh_ = 1.0;
     prior_ = Evidence{};
     prior_.information = sigma.cwiseProduct(sigma).cwiseInverse().asDiagonal();
     all_ = Evidence{};
@@ -28,6 +29,7 @@ void GroundEstimator::init(const Config& config) {
 
 void GroundEstimator::fade(double dt_s) {
     const double keep = 1.0 / (1.0 + (dt_s > 0.0 ? dt_s : 0.0) / kMemory_s);
+    fresh_ = 1.0 - keep;
     all_.information *= keep;
     all_.vector *= keep;
     for (Evidence& e : of_slot_) {
@@ -47,8 +49,11 @@ void GroundEstimator::add(int slot, const Pose& T_c_l, const Vec3& x_l, double s
     if (!(variance > 0.0) || !std::isfinite(r)) {
         return;
     }
-    const double w = huber(r * r / variance, kHuber).weight / (sigma_m * sigma_m);
-    Evidence& e = slot >= 0 && slot < kMaxObjects ? of_slot_[static_cast<std::size_t>(slot)] : all_;
+    const bool of_object = slot >= 0 && slot < kMaxObjects;
+    Evidence& e = of_object ? of_slot_[static_cast<std::size_t>(slot)] : all_;
+    const bool first = of_object && e.information(0, 0) == 0.0;
+    const double share = of_object && !first ? fresh_ : 1.0;
+    const double w = share * huber(r * r / variance, kHuber).weight / (sigma_m * sigma_m);
     e.information += w * (a * a.transpose());
     e.vector += (w * (height + height_m_)) * a;
 }

@@ -13,6 +13,7 @@ namespace semtrack {
 
 namespace {
 
+constexpr int kPlane = 2;  // x and y of L
 constexpr double kMinSize_m = 0.2;  // a step must not turn a box inside out
 
 double time_step_s(const ObjectFrame& before, const ObjectFrame& after) {
@@ -224,18 +225,28 @@ double ObjectProblem::add_motion(const ObjectVariables& x, int k, NormalEquation
     motion_residual(x.state[static_cast<std::size_t>(k - 1)], x.state[static_cast<std::size_t>(k)], dt_s, spec,
                     system != nullptr, r, J_before, J_after);
     if (system != nullptr) {
-        // J_after is diagonal: the square roots of the weights.
+        // J_after: the roots of the weights, diagonal but for the plane, which is turned to the ego's step.
         Mat6 H = Mat6::Zero();
         Mat6 H_pair;
+        Vec6 g;
         for (int c = 0; c < kFrameBlock; ++c) {
-            const double w = J_after(c, c);
-            H(c, c) = w * w;
-            for (int row = 0; row < kFrameBlock; ++row) {
-                H_pair(row, c) = J_before(c, row) * w;
+            const int first = c < kPlane ? 0 : c;
+            const int end = c < kPlane ? kPlane : c + 1;
+            H_pair.col(c).setZero();
+            g(c) = 0.0;
+            for (int i = first; i < end; ++i) {
+                const double w = J_after(i, c);
+                g(c) += w * r(i);
+                for (int other = first; other < end; ++other) {
+                    H(other, c) += J_after(i, other) * w;
+                }
+                for (int row = 0; row < kFrameBlock; ++row) {
+                    H_pair(row, c) += J_before(i, row) * w;
+                }
             }
         }
         system->add_frame(k - 1, J_before.transpose() * J_before, J_before.transpose() * r);
-        system->add_frame(k, H, J_after.diagonal().cwiseProduct(r));
+        system->add_frame(k, H, g);
         system->add_frame_pair(k - 1, k, H_pair);
     }
     return 0.5 * r.dot(r);

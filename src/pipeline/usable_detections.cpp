@@ -55,7 +55,8 @@ std::uint32_t take_usable(const DetectionList& in, int width, int height, Detect
             continue;
         }
         ++dropped;
-        if (d.score > out.items[same].score) {
+        const bool same_score = d.score == out.items[same].score;
+        if (d.score > out.items[same].score || (same_score && d.object_class < out.items[same].object_class)) {
             out.items[same] = d;
         }
     }

@@ -8,7 +8,7 @@ namespace semtrack {
 
 /// Fills `out` with the detections of `in` that are finite and meet the image, clipped to it (width x height px), each
 /// object once: of boxes that overlap by kSameObjectOverlap or more (intersection over union; two vehicles or two
-/// people) the one with the highest score stays, the first of equals. Keeps the order. Returns how many were dropped.
+/// people) the one with the highest score stays, of equals the one of the class that stands first, then the first. Keeps the order. Returns how many were dropped.
 /// O(n^2), n <= kMaxDetections.
 [[nodiscard]] std::uint32_t take_usable(const DetectionList& in, int width, int height, DetectionList& out);
 

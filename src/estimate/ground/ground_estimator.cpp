@@ -46,7 +46,7 @@ void GroundEstimator::add(int slot, const Pose& T_c_l, const Vec3& x_l, double s
     const double height = x_l(2) - camera_l(2);
     const double r = height - a.dot(theta);
     const double variance = sigma_m * sigma_m + a.dot(others.covariance * a);
-    if (!(variance > 0.0) || !std::isfinite(r)) {
+    if (!(sigma_m > 0.0) || !std::isfinite(variance) || !std::isfinite(r)) {
         return;
     }
     const bool of_object = slot >= 0 && slot < kMaxObjects;

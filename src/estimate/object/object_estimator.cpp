@@ -77,6 +77,7 @@ ObjectSolveReport ObjectEstimator::solve(ObjectWindow& window, NormalEquations& 
     }
     problem_.store(window);
     window.standing = standing;
+    window.stood += standing ? 1 : 0;
     if (standing) {
         window.newest().state.v = 0.0;
     }
@@ -127,6 +128,9 @@ void ObjectEstimator::try_other_starts(const ObjectWindow& window, bool standing
                                              static_cast<std::uint32_t>(t)) %
                                             static_cast<std::uint32_t>(options));
         other_ = start;
+        if (option >= 2 && !viewed && window.stood >= kStoodLong) {
+            continue;  // nothing tells its front from its rear any better than before
+        }
         const bool made = option < 2 ? twin_start(window, option == 1, other_)
                                      : fresh_start(window, calibration_, option - 2, other_);
         if (made) {

@@ -109,7 +109,7 @@ double heading_cost(const ObjectWindow& window, const ObjectVariables& x) {
         cost += steps == 0 ? 0.0 : steps == 1 ? kNextViewCost : kWrongViewCost;
     }
     const ObjectState& newest = x.state[static_cast<std::size_t>(window.frames.size() - 1)];
-    return cost + (!viewed && newest.v < -kReverseSpeed ? kReverseCost : 0.0);
+    return cost + (!viewed && window.stood < kStoodLong && newest.v < -kReverseSpeed ? kReverseCost : 0.0);
 }
 
 double outside_cost(const ObjectWindow& window, const ObjectVariables& x) {

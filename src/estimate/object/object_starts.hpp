@@ -9,7 +9,7 @@ namespace semtrack {
 
 /// Wrong faces over the window; an adjacent class is often the detector's error. Bounded a frame (redescending), so
 /// that a few wrong classes do not hold a heading that the edges contradict. Without any class in the window: driving
-/// backwards costs, so that the sign of the speed tells front from rear.
+/// backwards costs, so that the sign of the speed tells front from rear; not for one that was parked: it backs out.
 [[nodiscard]] double heading_cost(const ObjectWindow& window, const ObjectVariables& x);
 
 /// Landmarks lie on the body: cost of those outside the box. The observations alone do not tie a box to its landmarks.
@@ -19,6 +19,9 @@ namespace semtrack {
 /// about the line of sight, or, with the same two faces, on the other side of the heading at which the box is widest.
 /// Landmarks stay where they are in the world. false: the twin shows other faces, the detector's class would have told.
 [[nodiscard]] bool twin_start(const ObjectWindow& window, bool mirrored, ObjectVariables& x);
+
+/// Standing for so many frames: its heading has been published, and is kept.
+inline constexpr int kStoodLong = 5;
 
 inline constexpr int kFreshStarts = 3;       // with a viewpoint
 inline constexpr int kFreshStartsBlind = 8;  // without: around the circle

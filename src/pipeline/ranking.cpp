@@ -17,9 +17,23 @@ struct Node {
     double s;  // sigmas
     double share;
 };
-// Normal distribution in steps of 0.5 sigma, both sides together.
-constexpr std::array<Node, 7> kNodes{{{0.0, 0.1974}, {0.5, 0.3492}, {1.0, 0.2417}, {1.5, 0.1310}, {2.0, 0.0556},
-                                      {2.5, 0.0185}, {3.0, 0.0066}}};
+// Normal distribution in steps of 0.2 sigma, both sides together.
+constexpr std::array<Node, 16> kNodes{{{0.0, 0.0799},
+                                       {0.2, 0.1567},
+                                       {0.4, 0.1476},
+                                       {0.6, 0.1335},
+                                       {0.8, 0.1161},
+                                       {1.0, 0.0970},
+                                       {1.2, 0.0778},
+                                       {1.4, 0.0600},
+                                       {1.6, 0.0445},
+                                       {1.8, 0.0316},
+                                       {2.0, 0.0216},
+                                       {2.2, 0.0142},
+                                       {2.4, 0.0090},
+                                       {2.6, 0.0054},
+                                       {2.8, 0.0032},
+                                       {3.0, 0.0018}}};
 
 double absolute(double x) {
     return x < 0.0 ? -x : x;
@@ -53,8 +67,8 @@ double ranking_score(const Track& track) {
     const double overlap = expected_overlap(size(0), size(1), h.cos * ux + h.sin * uy, h.sin * ux - h.cos * uy,
                                             std::sqrt(variance > 0.0 ? variance : 0.0));
     const double n = static_cast<double>(track.hits);
-    double score = track.existence * track.detector_score * n / (n + kFramesForTrust) * overlap *
-                   (1.0 - track.truncation);
+    double score =
+        track.existence * track.detector_score * n / (n + kFramesForTrust) * overlap * (1.0 - track.truncation);
     for (int k = 0; k < track.frames_unseen && k < kLongestCoast; ++k) {
         score *= kCoastingScore;
     }

@@ -55,8 +55,10 @@ std::uint32_t take_usable(const DetectionList& in, int width, int height, Detect
             continue;
         }
         ++dropped;
-        const bool same_score = d.score == out.items[same].score;
-        if (d.score > out.items[same].score || (same_score && d.object_class < out.items[same].object_class)) {
+        const double more = d.score - out.items[same].score;
+        const bool commoner = d.object_class < out.items[same].object_class;
+        const bool rarer = out.items[same].object_class < d.object_class;
+        if (more > (commoner ? -kEqualScores : rarer ? kEqualScores : 0.0)) {
             out.items[same] = d;
         }
     }

@@ -128,12 +128,13 @@ void ObjectEstimator::try_other_starts(const ObjectWindow& window, bool standing
                                              static_cast<std::uint32_t>(t)) %
                                             static_cast<std::uint32_t>(options));
         other_ = start;
-        if (option >= 2 && !viewed && window.stood >= kStoodLong) {
-            continue;  // nothing tells its front from its rear any better than before
-        }
         const bool made = option < 2 ? twin_start(window, option == 1, other_)
                                      : fresh_start(window, calibration_, option - 2, other_);
-        if (made) {
+        const auto newest = static_cast<std::size_t>(window.frames.size() - 1);
+        const double turn = wrap_angle(other_.state[newest].theta - start.state[newest].theta);
+        const bool turned = turn > 0.5 * kPi || turn < -0.5 * kPi;
+        // Of one that stood without any viewpoint nothing tells front from rear better than before.
+        if (made && !(turned && !viewed && window.stood >= kStoodLong)) {
             keep_better(window, standing, system, step);
         }
     }

@@ -34,7 +34,7 @@ inline constexpr MotionNoise kPedestrianNoise{0.126, 0.10, 1.0, 0.8, 0.10, kEgoA
 inline constexpr MotionNoise kStandingNoise{0.04, 0.05, 0.01, 0.05, 0.05, kEgoAcross};
 
 /// Standing is kept while the moving model explains the window only so much better (difference of |r|^2).
-inline constexpr double kStandingGain = 10.0;
+inline constexpr double kStandingGain = 6.0;
 inline constexpr double kStandingGainKeep = 16.0;
 /// A faster object is not taken for standing whatever the costs say.
 inline constexpr double kStandingMaxSpeed = 2.5;

@@ -97,15 +97,14 @@ private:
     void add_boxes() {
         for (int k = 0; k < window_.frames.size(); ++k) {
             const ObjectFrame& frame = window_.frames[k];
-            const DetectionView view{calibration_.detection, frame.T_c_l};
-            EdgeVertices vertices;
+            const DetectionView view{calibration_.detection, frame.T_c_l, calibration_.width};
             const Pose T_l_o{rot_z(box_heading(frame.state, window_.object_class, view)), frame.state.p};
-            if (!frame.box.valid ||
-                extreme_vertices(view.camera, view.T_d_l * T_l_o, window_.size_m, vertices) != Status::kOk) {
+            if (!frame.box.valid) {
                 continue;
             }
+            const BoxOutline outline = box_outline(view.camera, view.width, view.T_d_l * T_l_o, window_.size_m);
             EdgeResiduals residuals;
-            box_edge_residuals(frame.state, window_.object_class, window_.size_m, view, vertices, frame.box, true,
+            box_edge_residuals(frame.state, window_.object_class, window_.size_m, view, outline, frame.box, true,
                                residuals);
             for (const EdgeResidual& e : residuals) {
                 if (!e.valid) {
@@ -143,6 +142,7 @@ private:
             Mat6 Ja;
             Mat6 Jb;
             const double dt_s = 1e-6 * static_cast<double>(window_.frames[k].time_us - window_.frames[k - 1].time_us);
+            set_ego_step(window_.frames[k - 1].T_c_l, window_.frames[k].T_c_l, spec);
             motion_residual(window_.frames[k - 1].state, x, dt_s, spec, true, r, Ja, Jb);
             cost_ += 0.5 * r.dot(r);
             for (int row = 0; row < 6; ++row) {
@@ -155,7 +155,8 @@ private:
                 add_row({{6 * (k - 1), a}, {6 * k, b}}, r(row), 1.0);
             }
         }
-        const SizePrior size = size_prior(window_.object_class);
+        const SizePrior size{window_.prior_size_m, window_.prior_size_covariance,
+                             window_.prior_size_covariance.inverse()};
         const Vec3 off = window_.size_m - size.mean_m;
         cost_ += 0.5 * size_prior_cost(size, window_.size_m);
         const Vec3 gradient = size.information * off;

@@ -15,7 +15,7 @@
 namespace semtrack {
 namespace {
 
-constexpr std::uint64_t kPatchHash = 12202772382886748862ULL;
+constexpr std::uint64_t kPatchHash = 15055600916626855112ULL;
 constexpr std::uint64_t kOrbHash = 8958372380185819886ULL;
 constexpr std::uint64_t kKeypointHash = 12097092120181386924ULL;
 

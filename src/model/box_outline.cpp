@@ -85,8 +85,7 @@ BoxOutline box_outline(const PinholeCamera& camera, int width, const Pose& T_c_o
     return search.outline;
 }
 
-Status seen_box(const PinholeCamera& camera, int width, int height, const Pose& T_c_o, const Vec3& size_m,
-                Box2d& out) {
+Status seen_box(const PinholeCamera& camera, int width, int height, const Pose& T_c_o, const Vec3& size_m, Box2d& out) {
     const BoxOutline outline = box_outline(camera, width, T_c_o, size_m);
     if (!outline[kTop].valid) {
         return Status::kBehindCamera;

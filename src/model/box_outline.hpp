@@ -26,8 +26,8 @@ using BoxOutline = std::array<OutlinePoint, kBoxEdges>;
 [[nodiscard]] BoxOutline box_outline(const PinholeCamera& camera, int width, const Pose& T_c_o, const Vec3& size_m);
 
 /// The 2D box of what is seen, cut to the image. kBehindCamera: nothing is; out is untouched.
-[[nodiscard]] Status seen_box(const PinholeCamera& camera, int width, int height, const Pose& T_c_o,
-                              const Vec3& size_m, Box2d& out);
+[[nodiscard]] Status seen_box(const PinholeCamera& camera, int width, int height, const Pose& T_c_o, const Vec3& size_m,
+                              Box2d& out);
 
 }  // namespace semtrack
 

@@ -10,10 +10,10 @@ namespace semtrack {
 
 struct GroundPlane {
     bool valid{false};
-    double height_m{0};                       ///< h: of the camera above the road
-    double slope_forward{0};                  ///< s_f: rise per metre ahead
-    double slope_left{0};                     ///< s_l
-    Mat3 covariance{Mat3::Identity()};        ///< of (h, s_f, s_l)
+    double height_m{0};                 ///< h: of the camera above the road
+    double slope_forward{0};            ///< s_f: rise per metre ahead
+    double slope_left{0};               ///< s_l
+    Mat3 covariance{Mat3::Identity()};  ///< of (h, s_f, s_l)
 };
 
 /// The camera's axis in L, level, of length 1. A camera that looks straight down has none: then L's x.

@@ -73,8 +73,8 @@ struct ObjectWindow {
     /// that have left said.
     Vec3 prior_size_m{Vec3::Ones()};
     Mat3 prior_size_covariance{Mat3::Identity()};
-    std::uint32_t prior_frame{0};  ///< newest frame that the prior has used
-    int stood{0};                  ///< frames that it was found standing so far
+    std::uint32_t prior_frame{0};                       ///< newest frame that the prior has used
+    int stood{0};                                       ///< frames that it was found standing so far
     bool standing{false};                               ///< the standing hypothesis explains the window as well
     Mat6 covariance{Mat6::Identity()};                  ///< of the newest state (p, theta, v, delta)
     StaticVector<ObjectFrame, kObjectWindow> frames{};  ///< oldest first

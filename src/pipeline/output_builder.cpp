@@ -12,8 +12,8 @@ namespace semtrack {
 
 namespace {
 
-constexpr double kMovingSpeed = 0.5;    // m/s
-constexpr int kYoung_frames = 3;        // too early to say how it moves
+constexpr double kMovingSpeed = 0.5;  // m/s
+constexpr int kYoung_frames = 3;      // too early to say how it moves
 
 std::array<double, 3> array3(const Vec3& x) {
     return {x(0), x(1), x(2)};

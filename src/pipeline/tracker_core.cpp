@@ -60,6 +60,7 @@ Status TrackerCore::init(const Config& config, const Calibration& calibration, F
     ground_.init(config);
     objects_.init(calibration, config);
     tracks_.reset();
+    unplaced_.clear();
     patch_.reset();
     orb_.reset();
     external_.reset();

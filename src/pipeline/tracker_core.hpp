@@ -117,6 +117,7 @@ private:
     OutlierRejection rejection_{};
     ObjectFrame new_frame_{};
     DetectionList usable_{};
+    StaticVector<Box2d, kMaxDetections> unplaced_{};  // of the newest list: too much outside the image to start a track
     StaticVector<TrackAtFrame, kMaxObjects> candidates_{};
     TrackBoxes boxes_{};
     Associator associator_{};

@@ -4,11 +4,11 @@
 
 #include "estimate/factor/box_edges.hpp"
 #include "estimate/factor/size_prior.hpp"
-#include "model/stand_point.hpp"
 #include "math/so3.hpp"
 #include "math/trig.hpp"
 #include "model/box_outline.hpp"
 #include "model/class_prior.hpp"
+#include "model/stand_point.hpp"
 #include "pipeline/tracker_core.hpp"
 #include "pipeline/usable_detections.hpp"
 
@@ -184,6 +184,7 @@ void TrackerCore::take_list(const DetectionList& list, std::uint32_t frame) {
     health_.detections_dropped += take_usable(list, calibration_.width, calibration_.height, usable_);
     candidates_.clear();
     boxes_.clear();
+    unplaced_.clear();
     for (int s = 0; s < kMaxObjects; ++s) {
         const Track& track = tracks_[s];
         const int index = track.alive ? find_frame(track.window, frame) : -1;
@@ -385,6 +386,7 @@ void TrackerCore::start_track(const DetectionList& list, int item, std::uint32_t
     const Pose T_c_l{T_c_w.R * level_.R_l_w().transpose(), T_c_w.t};
     ObjectState x;
     if (!infer(detection, T_c_l, prior.size_m, nullptr, x)) {
+        (void)unplaced_.try_push_back(detection.box);
         return;  // too much of it outside: not observable yet
     }
     int slot = -1;

@@ -80,6 +80,11 @@ void TrackerCore::build_masks() {
     }
     mask_builder_.build(calibration_.left, calibration_.width, calibration_.height, mask_items_left_, mask_left_,
                         mask_results_);
+    for (const Box2d& box : unplaced_) {
+        if (config_.mask_objects) {
+            OwnerMaskBuilder::leave_out(box, mask_left_);
+        }
+    }
     for (int i = 0; i < mask_items_left_.size(); ++i) {
         Track& track = tracks_[mask_items_left_[i].owner - 1];
         track.visible_share = mask_results_[i].visible_share;

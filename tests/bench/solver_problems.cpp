@@ -228,8 +228,8 @@ void ObjectProblemData::motion(int k, const double* before, const double* after,
     Mat6 after_J;
     MotionModelSpec motion = inner_->motion;
     set_ego_step(frames[k - 1].T_c_l, frames[k].T_c_l, motion);
-    motion_residual(state(before), state(after), dt_s, motion, J_before != nullptr || J_after != nullptr,
-                    residual, before_J, after_J);
+    motion_residual(state(before), state(after), dt_s, motion, J_before != nullptr || J_after != nullptr, residual,
+                    before_J, after_J);
     copy_rows(residual, r);
     copy_rows(before_J, J_before);
     copy_rows(after_J, J_after);

@@ -16,8 +16,7 @@ double by_many_points(double l, double w, double c, double s, double sigma) {
     for (int k = -4000; k <= 4000; ++k) {
         const double x = 0.001 * k;
         const double p = std::exp(-0.5 * x * x);
-        const double a =
-            std::max(0.0, l - std::fabs(x * sigma * c)) * std::max(0.0, w - std::fabs(x * sigma * s));
+        const double a = std::max(0.0, l - std::fabs(x * sigma * c)) * std::max(0.0, w - std::fabs(x * sigma * s));
         sum += p * a / (2.0 * l * w - a);
         weight += p;
     }

@@ -30,8 +30,8 @@ using EdgeResiduals = std::array<EdgeResidual, kBoxEdges>;
 /// Heading that the box has for projections. A pedestrian has none: his box faces the camera.
 [[nodiscard]] double box_heading(const ObjectState& x, ObjectClass object_class, const DetectionView& view);
 
-/// Edges with sigma 0, without a point in the outline, or whose point is behind the camera, stay invalid. derivatives: fill J too. A class without
-/// heading has no derivative by theta. Constant cost, no allocation.
+/// Edges with sigma 0, without a point in the outline, or whose point is behind the camera, stay invalid. derivatives:
+/// fill J too. A class without heading has no derivative by theta. Constant cost, no allocation.
 void box_edge_residuals(const ObjectState& x, ObjectClass object_class, const Vec3& size_m, const DetectionView& view,
                         const BoxOutline& outline, const BoxMeasurement& box, bool derivatives, EdgeResiduals& out);
 

@@ -19,9 +19,9 @@ public:
     void init(const Config& config);
     /// Once a frame, dt_s after the last one.
     void fade(double dt_s);
-    /// slot -1: not an object's. x_l: on the road, with the standard deviation of its height. An object's error is that of
-    /// its size, the same in every frame: a frame's evidence counts by what has faded since the last one, so that all of
-    /// them together count once.
+    /// slot -1: not an object's. x_l: on the road, with the standard deviation of its height. An object's error is that
+    /// of its size, the same in every frame: a frame's evidence counts by what has faded since the last one, so that
+    /// all of them together count once.
     void add(int slot, const Pose& T_c_l, const Vec3& x_l, double sigma_m);
     /// The object in this slot is another one from now on; what the old one said of the road stays.
     void release(int slot);

@@ -21,7 +21,7 @@ constexpr int kObjectIterations = 5;
 constexpr double kMaxPlausibleSpeed = 90.0;  // m/s
 constexpr double kMinStereoDisparity_px = 2.0;
 constexpr double kDoubtfulViews = 2.0;  // over the window
-constexpr double kBetterBy = 0.5;  // of the cost: equal starts do not take turns
+constexpr double kBetterBy = 0.5;       // of the cost: equal starts do not take turns
 constexpr int kTrialsBlind = 3;
 constexpr int kYoungFrames = 9;         // of the window
 constexpr double kDoubtfulSize2 = 6.0;  // |r|^2 of the size prior, three degrees of freedom
@@ -125,9 +125,9 @@ void ObjectEstimator::try_other_starts(const ObjectWindow& window, bool standing
     const int options = 2 + (viewed ? kFreshStarts : kFreshStartsBlind);
     const int trials = blind ? kTrialsBlind : 1;
     for (int t = 0; t < trials; ++t) {
-        const int option = static_cast<int>((window.newest().frame * static_cast<std::uint32_t>(trials) +
-                                             static_cast<std::uint32_t>(t)) %
-                                            static_cast<std::uint32_t>(options));
+        const int option = static_cast<int>(
+            (window.newest().frame * static_cast<std::uint32_t>(trials) + static_cast<std::uint32_t>(t)) %
+            static_cast<std::uint32_t>(options));
         other_ = start;
         const bool made = option < 2 ? twin_start(window, option == 1, other_)
                                      : fresh_start(window, calibration_, option - 2, other_);

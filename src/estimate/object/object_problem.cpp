@@ -13,7 +13,7 @@ namespace semtrack {
 
 namespace {
 
-constexpr int kPlane = 2;  // x and y of L
+constexpr int kPlane = 2;           // x and y of L
 constexpr double kMinSize_m = 0.2;  // a step must not turn a box inside out
 
 double time_step_s(const ObjectFrame& before, const ObjectFrame& after) {

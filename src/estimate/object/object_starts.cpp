@@ -12,14 +12,14 @@ namespace semtrack {
 
 namespace {
 
-constexpr double kWrongViewCost = 2.0;  // of a frame whose faces are others than the detector says
-constexpr double kNextViewCost = 0.5;   // ... by one class
+constexpr double kWrongViewCost = 2.0;   // of a frame whose faces are others than the detector says
+constexpr double kNextViewCost = 0.5;    // ... by one class
 constexpr double kReverseCost = 3.0;     // of driving backwards, when no viewpoint was given: one in twenty
 constexpr double kReverseSpeed = 0.5;    // m/s
-constexpr double kOutsideSigma_m = 0.2;   // mirrors and bumpers, and the label's own tightness
-constexpr double kOutsideMost2 = 4.0;     // a point that is not on the object counts as two sigmas
+constexpr double kOutsideSigma_m = 0.2;  // mirrors and bumpers, and the label's own tightness
+constexpr double kOutsideMost2 = 4.0;    // a point that is not on the object counts as two sigmas
 constexpr int kIndependentPoints = 3;
-constexpr double kMaxTurn_rad = 1.2;    // to a twin
+constexpr double kMaxTurn_rad = 1.2;        // to a twin
 constexpr double kBesideMiddle_rad = 0.35;  // of a class of two faces, which spans 1.4 rad
 constexpr double kPathSpeed = 1.5;          // m/s: slower ones have no direction
 constexpr double kShortestPath_s = 0.25;
@@ -48,7 +48,9 @@ struct Path {
         return last_s - first_s < kShortestPath_s || !(det > 0.0) ? Vec3(Vec3::Zero())
                                                                   : Vec3((weight * tp - t * p) / det);
     }
-    [[nodiscard]] Vec3 at(double t_s, const Vec3& velocity) const { return (p + velocity * (weight * t_s - t)) / weight; }
+    [[nodiscard]] Vec3 at(double t_s, const Vec3& velocity) const {
+        return (p + velocity * (weight * t_s - t)) / weight;
+    }
 };
 
 DetectionView view_of(const ObjectFrame& frame, const Calibration& c) {

@@ -28,8 +28,8 @@ inline constexpr int kFreshStartsBlind = 8;  // without: around the circle
 
 /// From the boxes alone: where each whole box stands with the class's mean size and one heading, a straight path
 /// through them. option: with a viewpoint 0 and 1 are headings left and right of the class's middle, 2 along the
-/// path, the way round that the class says; without it, eight headings around the circle. Landmarks are those of x, moved along.
-/// false: no whole box, or the path has no direction.
+/// path, the way round that the class says; without it, eight headings around the circle. Landmarks are those of x,
+/// moved along. false: no whole box, or the path has no direction.
 [[nodiscard]] bool fresh_start(const ObjectWindow& window, const Calibration& calibration, int option,
                                ObjectVariables& x);
 

@@ -189,4 +189,20 @@ void OwnerMaskBuilder::build(const PinholeCamera& camera, int width, int height,
     }
 }
 
+void OwnerMaskBuilder::leave_out(const Box2d& box, OwnerMask& mask) {
+    Box2d inside;
+    if (!clip_box(box, mask.width, mask.height, inside)) {
+        return;
+    }
+    const int left = static_cast<int>(inside.left);
+    const int right = static_cast<int>(inside.right);
+    const int bottom = static_cast<int>(inside.bottom);
+    for (int y = static_cast<int>(inside.top); y <= bottom; ++y) {
+        std::uint8_t* row = mask.row(y);
+        for (int x = left; x <= right; ++x) {
+            row[x] = row[x] == kBackgroundOwner ? kNoOwner : row[x];
+        }
+    }
+}
+
 }  // namespace semtrack

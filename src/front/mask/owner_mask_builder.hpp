@@ -35,6 +35,9 @@ public:
     void build(const PinholeCamera& camera, int width, int height, const MaskItems& items, OwnerMask& mask,
                MaskResults& results);
 
+    /// Background inside the box becomes nobody's: an object that is seen, but not placed yet.
+    static void leave_out(const Box2d& box, OwnerMask& mask);
+
 private:
     struct Contour {
         StaticVector<Vec2, 16> corners{};

@@ -93,8 +93,7 @@ TEST(BoxEdges, ResidualIsTheProjectionMinusTheEdgeInSigmas) {
     Mat3 R_c_l;
     R_c_l << 0, -1, 0, 0, 0, -1, 1, 0, 0;
     const DetectionView view{{700.0, 700.0, 600.0, 170.0}, {R_c_l, Vec3::Zero()}, kImageWidth};
-    const BoxOutline outline =
-        box_outline(view.camera, view.width, {R_c_l, Vec3(0.0, 0.0, 20.0)}, Vec3(4.0, 2.0, 1.0));
+    const BoxOutline outline = box_outline(view.camera, view.width, {R_c_l, Vec3(0.0, 0.0, 20.0)}, Vec3(4.0, 2.0, 1.0));
     BoxMeasurement box = box_of(2.0);
     box.box.left = 600.0 - 700.0 / 18.0 - 4.0;  // the rear's left edge, at 18 m, is 4 px off
     EdgeResiduals out;
@@ -111,8 +110,7 @@ TEST(BoxEdges, BorderEdgesAndVerticesBehindTheCameraSayNothing) {
     const ObjectState ahead{Vec3(15.0, 0.0, -0.8), 0.0, 0.0, 0.0};
     const BoxOutline outline =
         box_outline(view.camera, view.width, view.T_d_l * Pose{rot_z(ahead.theta), ahead.p}, kSize);
-    box_edge_residuals(ahead, ObjectClass::kCar, kSize, view, outline, box, true,
-                       out);
+    box_edge_residuals(ahead, ObjectClass::kCar, kSize, view, outline, box, true, out);
     EXPECT_TRUE(out[kLeft].valid);
     EXPECT_FALSE(out[kRight].valid);
     box_edge_residuals({Vec3(-15.0, 0.0, -0.8), 0.0, 0.0, 0.0}, ObjectClass::kCar, kSize, view, outline, box, true,

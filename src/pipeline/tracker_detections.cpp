@@ -9,6 +9,7 @@
 #include "model/box_outline.hpp"
 #include "model/class_prior.hpp"
 #include "model/stand_point.hpp"
+#include "pipeline/edge_noise.hpp"
 #include "pipeline/tracker_core.hpp"
 #include "pipeline/usable_detections.hpp"
 
@@ -17,74 +18,8 @@ namespace semtrack {
 namespace {
 
 constexpr std::int64_t kSameImage_us = 5000;  // stamps of one image may differ by rounding, not by half a frame
-constexpr double kBorder_px = 1.5;            // an edge this near to the border is the border's, not the object's,
-constexpr double kBorderSigmas = 2.5;         // or this near: detectors draw cut boxes some pixels short of the border
 constexpr int kWrongViews = 3;                // detections in a row that contradict the heading
 constexpr double kStartDepthSigma = 0.15;     // of the depth: a size prior is off by so much
-
-/// Edges of a detector scatter by 0.8 px and 2 % of the height; sideways more; hidden ones twice; and they are
-/// correlated over a window (0.75-0.79 from frame to frame), which twice the sigma accounts for.
-double edge_scatter_px(const Box2d& box) {
-    constexpr double kBase_px = 0.8;
-    constexpr double kShareOfHeight = 0.022;
-    const double h = kShareOfHeight * (box.bottom - box.top);
-    return std::sqrt(kBase_px * kBase_px + h * h);
-}
-
-/// Edges that are the border's are put on it.
-Box2d drawn_to_border(const Box2d& box, int width, int height) {
-    const double near = kBorderSigmas * edge_scatter_px(box);
-    const double margin = near > kBorder_px ? near : kBorder_px;
-    const double right = static_cast<double>(width - 1);
-    const double bottom = static_cast<double>(height - 1);
-    return {box.left < margin ? 0.0 : box.left, box.top < margin ? 0.0 : box.top,
-            box.right > right - margin ? right : box.right, box.bottom > bottom - margin ? bottom : box.bottom};
-}
-
-std::array<double, 4> edge_sigmas(const DetectionList& list, int item, int width, int height) {
-    constexpr double kSideways = 1.25;
-    constexpr double kHidden = 2.0;
-    constexpr double kCorrelated = 2.0;
-    const Box2d& box = list.items[item].box;
-    const double sigma = kCorrelated * edge_scatter_px(box);
-    std::array<double, 4> out{kSideways * sigma, kSideways * sigma, sigma, sigma};
-    for (int other = 0; other < list.items.size(); ++other) {
-        const Box2d& b = list.items[other].box;
-        if (other == item || !(b.bottom > box.bottom)) {
-            continue;
-        }  // lower in the image is nearer
-        const double rows = (b.bottom < box.bottom ? b.bottom : box.bottom) - (b.top > box.top ? b.top : box.top);
-        const double columns = (b.right < box.right ? b.right : box.right) - (b.left > box.left ? b.left : box.left);
-        const bool tall = rows > 0.3 * (box.bottom - box.top);
-        const bool wide = columns > 0.3 * (box.right - box.left);
-        if (tall && b.left < box.left && b.right > box.left) {
-            out[kLeft] *= kHidden;
-        }
-        if (tall && b.left < box.right && b.right > box.right) {
-            out[kRight] *= kHidden;
-        }
-        if (wide && b.top < box.top && b.bottom > box.top) {
-            out[kTop] *= kHidden;
-        }
-        if (wide && b.top < box.bottom) {
-            out[kBottom] *= kHidden;
-        }
-    }
-    const Box2d drawn = drawn_to_border(box, width, height);
-    if (drawn.left <= 0.0) {
-        out[kLeft] = 0.0;
-    }
-    if (drawn.right >= width - 1) {
-        out[kRight] = 0.0;
-    }
-    if (drawn.top <= 0.0) {
-        out[kTop] = 0.0;
-    }
-    if (drawn.bottom >= height - 1) {
-        out[kBottom] = 0.0;
-    }
-    return out;
-}
 
 /// Steps between two horizontal viewpoint classes on the circle of eight.
 int class_distance(int a, int b) {

@@ -107,7 +107,7 @@ ObjectSolveReport ObjectEstimator::solve(ObjectWindow& window, NormalEquations& 
 // Five iterations do not leave the wrong one of two headings, or the wrong depth of an object that entered half
 // outside the image; by the time the features contradict it, the size has given way. In doubt other starts are tried,
 // another one each frame, and the cheapest solution stays. Without landmarks a start costs little: three a frame.
-// Landmarks of a car that has stood for a while hold its heading.
+// Landmarks of a car that stands hold its heading, unless the viewpoints contradict it.
 void ObjectEstimator::try_other_starts(const ObjectWindow& window, bool standing, NormalEquations& system,
                                        SolverStep& step) {
     if (!class_prior(window.object_class).has_heading) {
@@ -117,8 +117,9 @@ void ObjectEstimator::try_other_starts(const ObjectWindow& window, bool standing
     const bool blind = problem_.landmarks() == 0;
     const bool young = window.frames.size() <= kYoungFrames;
     const double size2 = size_prior_cost(size_prior(window.object_class), start.size_m);
-    const bool doubtful = young || size2 > kDoubtfulSize2 || heading_cost(window, start) > kDoubtfulViews;
-    if (!blind && (!doubtful || (standing && !young))) {
+    const bool contradicted = heading_cost(window, start) > kDoubtfulViews;
+    const bool doubtful = young || size2 > kDoubtfulSize2 || contradicted;
+    if (!blind && (!doubtful || (standing && !contradicted))) {
         return;
     }
     const bool viewed = window.newest().box.valid && window.newest().box.viewpoint.horizontal >= 0;

@@ -60,7 +60,6 @@ std::array<double, 8> biases(const Light& light, float left_phase, int& count) {
 }
 
 TEST(DisparityBias, IsSmallAtEveryPhaseAndBrightnessAndAveragesOut) {
-    // With straight lines between pixels 0.034 px and, through the softer lens, 0.017.
     int total = 0;
     for (const Light& light :
          {Light{16, 0.027, 1.0, 0.0, 2.0}, Light{16, 0.027, 0.85, -15.0, 2.0}, Light{16, 0.027, 1.1, 5.0, 4.0},

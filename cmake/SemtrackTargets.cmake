@@ -21,6 +21,12 @@ add_library(semtrack_core_options INTERFACE)
 target_compile_options(semtrack_core_options INTERFACE -fno-exceptions -fno-rtti -fno-threadsafe-statics)
 target_link_libraries(semtrack_core_options INTERFACE semtrack_determinism)
 
+# Whoever includes the public headers sees the same capacities as the core.
+add_library(semtrack_capacity INTERFACE)
+if(SEMTRACK_CAPACITY STREQUAL small)
+  target_compile_definitions(semtrack_capacity INTERFACE SEMTRACK_CAPACITY_SMALL)
+endif()
+
 # semtrack_layer(NAME DIR [DEPENDS layer...]): one directory of the core as a static library semtrack_NAME.
 # DEPENDS lists the layers below it; the gate tests/gates/layers checks the includes against the same direction.
 function(semtrack_layer name dir)
@@ -38,7 +44,7 @@ function(semtrack_layer name dir)
     set(scope INTERFACE)
   endif()
   target_include_directories(semtrack_${name} ${scope} ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
-  target_link_libraries(semtrack_${name} ${scope} Eigen3::Eigen)
+  target_link_libraries(semtrack_${name} ${scope} Eigen3::Eigen semtrack_capacity)
   foreach(layer IN LISTS arg_DEPENDS)
     target_link_libraries(semtrack_${name} ${scope} semtrack_${layer})
   endforeach()

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "semtrack/calibration.hpp"
+#include "semtrack/capacity.hpp"
 #include "semtrack/config.hpp"
 #include "semtrack/hal/feature_extractor.hpp"
 #include "semtrack/hal/stage_observer.hpp"
@@ -13,8 +14,12 @@
 
 namespace semtrack {
 
-/// Bytes of a Tracker: all of its state. src/pipeline/tracker.cpp asserts at compile time that it fits.
-inline constexpr std::size_t kTrackerBytes = std::size_t{10} * 1024U * 1024U;
+/// Capacities are part of the Tracker's name: a program and an archive of different ones do not link.
+inline namespace SEMTRACK_CAPACITIES {
+
+/// Bytes of a Tracker: all of its state. src/pipeline/tracker.cpp asserts at compile time that it fits;
+/// docs/budgets.md has the parts.
+inline constexpr std::size_t kTrackerBytes = kTrackerMebibytes * 1024U * 1024U;
 
 /// Ego-motion and object tracking, Li, Qin, Shen (ECCV 2018). No heap, no exception, no clock, no global state:
 /// the same calls give the same bytes. Not thread safe; different Trackers are independent. Place it in static
@@ -42,6 +47,7 @@ private:
     alignas(64) std::byte storage_[kTrackerBytes];
 };
 
+}  // namespace SEMTRACK_CAPACITIES
 }  // namespace semtrack
 
 #endif

@@ -61,10 +61,8 @@ Status TrackerCore::init(const Config& config, const Calibration& calibration, F
     objects_.init(calibration, config);
     tracks_.reset();
     unplaced_.clear();
-    patch_.reset();
-    orb_.reset();
+    matcher_.reset(config.matcher, extractor);
     external_.reset();
-    orb_.set_extractor(extractor != nullptr ? extractor : &native_extractor_);
     health_ = Health{};
     ready_ = true;
     return Status::kOk;
@@ -162,8 +160,7 @@ void TrackerCore::count_health(const Input& input) {
     } else if (input.right.empty()) {
         ++health_.frames_without_right;
     }
-    health_.row_offset_px =
-        static_cast<float>(config_.matcher == MatcherKind::kOrb ? orb_.row_offset_px() : patch_.row_offset_px());
+    health_.row_offset_px = static_cast<float>(matcher_.row_offset_px());
     health_.ego_degraded = ego_result_.status == EgoStatus::kPredicted;
 }
 

@@ -10,11 +10,9 @@
 #include "estimate/object/object_estimator.hpp"
 #include "front/associate/associate.hpp"
 #include "front/box/infer_box.hpp"
-#include "front/feature/orb_extractor.hpp"
 #include "front/mask/owner_mask_builder.hpp"
+#include "front/match/chosen_matcher.hpp"
 #include "front/match/external_features.hpp"
-#include "front/match/orb_matcher.hpp"
-#include "front/match/patch_matcher.hpp"
 #include "front/ransac/reject.hpp"
 #include "pipeline/level.hpp"
 #include "semtrack/tracker.hpp"
@@ -37,6 +35,8 @@ public:
     Status process(const Input& input, Output& output);
 
 private:
+    friend class TrackerMemory;  // says how large the members are
+
     // tracker_core.cpp
     [[nodiscard]] bool acceptable(const Input& input) const;
     [[nodiscard]] Pose given_pose(const Input& input) const;
@@ -106,10 +106,8 @@ private:
     GroundEstimator ground_{};
     ObjectEstimator objects_{};
     TrackTable tracks_{};
-    PatchMatcher patch_{};
-    OrbExtractor native_extractor_{};
-    OrbMatcher orb_{};            // in place of patch_ when the configuration says so
-    ExternalMatcher external_{};  // in place of both while Input::features comes
+    ChosenMatcher matcher_{};
+    ExternalMatcher external_{};  // in its place while Input::features comes
     OwnerMaskBuilder mask_builder_{};
     OwnerMask mask_left_{};
     OwnerMask mask_right_{};

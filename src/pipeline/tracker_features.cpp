@@ -161,8 +161,7 @@ void TrackerCore::match(const Input& input) {
     in.camera_height_m = config_.camera_height_m;
     in.frame = frame_;
     in.observer = observer_;
-    const Status status =
-        config_.matcher == MatcherKind::kOrb ? orb_.process(in, features_) : patch_.process(in, features_);
+    const Status status = matcher_.process(in, features_);
     if (status != Status::kOk) {
         features_.clear();
         return;
@@ -174,10 +173,8 @@ void TrackerCore::match(const Input& input) {
 void TrackerCore::drop_feature(int owner, int slot) {
     if (features_given_) {
         external_.reject(owner, slot);
-    } else if (config_.matcher == MatcherKind::kOrb) {
-        orb_.reject(owner, slot);
     } else {
-        patch_.reject(owner, slot);
+        matcher_.reject(owner, slot);
     }
 }
 

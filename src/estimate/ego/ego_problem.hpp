@@ -15,8 +15,7 @@
 
 namespace semtrack {
 
-inline constexpr int kFreeFrames = 4;
-static_assert(kFreeFrames <= kSolverFrames && kEgoFrames <= kSolverFrames, "the workspace is shared");
+inline constexpr int kFreeFrames = kPoseFrames;
 
 class EgoProblem {
 public:

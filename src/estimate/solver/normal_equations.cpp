@@ -5,8 +5,9 @@
 namespace semtrack {
 
 void NormalEquations::clear(int frames, int points, bool shared, Coupling coupling) {
-    frames_ = frames < kSolverFrames ? frames : kSolverFrames;
     const bool planar = coupling == Coupling::kPlanar;
+    const int most_frames = planar ? kSolverFrames : kPoseFrames;
+    frames_ = frames < most_frames ? frames : most_frames;
     const int most_points = planar ? kMaxObjectFeatures : kSolverPoints;
     points_ = points < most_points ? points : most_points;
     lanes_ = padded_lanes(points_);

@@ -30,9 +30,16 @@ struct SolverStep {
     std::array<Vec3, kSolverPoints> point{};
 };
 
-/// Room for E^T of the larger problem: the poses'.
-inline constexpr std::size_t kCouplings =
-    static_cast<std::size_t>(kSolverFrames * kPointBlock * kFrameBlock) * kPointStride;
+static_assert(kPoseFrames <= kSolverFrames, "one workspace serves both problems");
+
+template <Coupling kCoupling>
+inline constexpr std::size_t kCouplingRoom =
+    static_cast<std::size_t>(kPointBlock) * kCoupled<kCoupling>* kCouplingStride<kCoupling>* static_cast<std::size_t>(
+                                                kCoupling == Coupling::kPose ? kPoseFrames : kSolverFrames);
+/// Room for E^T of the larger problem.
+inline constexpr std::size_t kCouplings = kCouplingRoom<Coupling::kPose> > kCouplingRoom<Coupling::kPlanar>
+                                              ? kCouplingRoom<Coupling::kPose>
+                                              : kCouplingRoom<Coupling::kPlanar>;
 
 class NormalEquations {
 public:

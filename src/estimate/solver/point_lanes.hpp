@@ -14,10 +14,11 @@ inline constexpr int kFrameBlock = 6;
 inline constexpr int kSharedBlock = 3;
 inline constexpr int kPointBlock = 3;
 inline constexpr int kSolverPoints = kMaxBackgroundFeatures;
+inline constexpr int kPoseFrames = 4;  ///< camera poses that move: the ego window's newest
 
 /// Columns of a frame that its points couple to.
 enum class Coupling : std::uint8_t {
-    kPose = 6,    ///< all; up to kSolverPoints points
+    kPose = 6,    ///< all; up to kPoseFrames frames and kSolverPoints points
     kPlanar = 4,  ///< the leading four: (p, theta) of an object; up to kMaxObjectFeatures points
 };
 

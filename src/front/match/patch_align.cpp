@@ -19,7 +19,7 @@ constexpr double kMinTexture = 300.0 * 1024.0;  // sum of squared gradients, 300
 constexpr double kMinSquare = 256.0;            // one grey level^2
 constexpr double kMinContrast = 0.2;            // of the image over the template's: below, it is something else
 constexpr std::int16_t kMiddle = 128 * 16;
-constexpr double kPixels = static_cast<double>(kPatch) * kPatch;
+constexpr double kPixels = static_cast<double>(kPatchRows) * kPatchRows;
 constexpr int kGrid = 128;  // steps of the interpolation per px
 constexpr std::int16_t kColumnMask[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, 0, 0, 0, 0, 0};
 
@@ -248,7 +248,7 @@ bool PatchTemplate::finish(const Source& source) {
     Product ww;
     Product vu;
     Product vw;
-    for (int r = 0; r < kPatch; ++r) {
+    for (int r = 0; r < kPatchRows; ++r) {
         const std::int16_t* p = source.data() + static_cast<std::ptrdiff_t>(r + 1) * kSourceStride + 1;
         const Row value = about_middle(load_row(p), mask);
         const Row gu = difference(p + 1, p - 1, mask);
@@ -289,7 +289,7 @@ bool PatchTemplate::compare(const ImageView& image, float u, float v, Match& out
     const OnGrid row(v);
     const int x0 = column.whole - kPatchHalf;
     const int y0 = row.whole - kPatchHalf;
-    if (x0 < 1 || y0 < 0 || x0 + kLanes + 2 > image.width || y0 + kPatch + 1 > image.height) {
+    if (x0 < 1 || y0 < 0 || x0 + kLanes + 2 > image.width || y0 + kPatchRows + 1 > image.height) {
         return false;
     }
     const Taps<4> ax(column.part);
@@ -302,7 +302,7 @@ bool PatchTemplate::compare(const ImageView& image, float u, float v, Match& out
     Product su;
     Product sw;
     Row upper = along(image.row(y0) + x0, ax);
-    for (int r = 0; r < kPatch; ++r) {
+    for (int r = 0; r < kPatchRows; ++r) {
         const Row lower = along(image.row(y0 + r + 1) + x0, ax);
         const Row s = masked(between(upper, lower, weights), mask);
         const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(r) * kLanes;

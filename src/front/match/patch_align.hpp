@@ -14,8 +14,8 @@
 namespace semtrack {
 
 inline constexpr int kReference = 17;  ///< side of a stored reference patch: 11, its gradients, and room for scaling
-inline constexpr int kPatch = 11;
-inline constexpr int kPatchHalf = kPatch / 2;
+inline constexpr int kPatchRows = 11;
+inline constexpr int kPatchHalf = kPatchRows / 2;
 using ReferencePatch = std::array<std::uint8_t, static_cast<std::size_t>(kReference) * kReference>;
 
 /// Copies the surroundings of (u, v), bilinear; false: too near to the border.
@@ -50,7 +50,7 @@ private:
     // Values are in 1/16 grey level about 128, gradients (differences over two px) in 1/32 grey level per px. A row of
     // the patch is 16 lanes wide; lanes beyond the patch are 0.
     static constexpr int kLanes = 16;
-    static constexpr int kSource = kPatch + 2;  // with one more pixel around, for gradients
+    static constexpr int kSource = kPatchRows + 2;  // with one more pixel around, for gradients
     static constexpr int kSourceStride = 24;
     static constexpr float kGradientUnit = 1.0F / 32.0F;
     using Source = std::array<std::int16_t, static_cast<std::size_t>(kSource) * kSourceStride>;
@@ -66,9 +66,9 @@ private:
     [[nodiscard]] bool finish(const Source& source);
     [[nodiscard]] bool compare(const ImageView& image, float u, float v, Match& out) const;
 
-    std::array<std::int16_t, static_cast<std::size_t>(kPatch) * kLanes> value_{};
-    std::array<std::int16_t, static_cast<std::size_t>(kPatch) * kLanes> gu_{};
-    std::array<std::int16_t, static_cast<std::size_t>(kPatch) * kLanes> gv_{};
+    std::array<std::int16_t, static_cast<std::size_t>(kPatchRows) * kLanes> value_{};
+    std::array<std::int16_t, static_cast<std::size_t>(kPatchRows) * kLanes> gu_{};
+    std::array<std::int16_t, static_cast<std::size_t>(kPatchRows) * kLanes> gv_{};
     std::int32_t sum_{0};    // of the values
     std::int32_t sum_u_{0};  // of the gradients
     std::int32_t sum_v_{0};

@@ -133,6 +133,7 @@ void TrackerCore::take_list(const DetectionList& list, std::uint32_t frame) {
         (void)boxes_.try_push_back(box);
         (void)candidates_.try_push_back({s, index});
     }
+    widen_hidden_edges();
     associator_.run(boxes_, usable_, assignment_);
     for (int t = 0; t < candidates_.size(); ++t) {
         Track& track = tracks_[candidates_[t].slot];
@@ -148,7 +149,7 @@ void TrackerCore::take_list(const DetectionList& list, std::uint32_t frame) {
     end(Stage::kAssociate);
     begin(Stage::kInfer);
     for (int item = 0; item < usable_.items.size(); ++item) {
-        if (!assignment_.detection_used[static_cast<std::size_t>(item)]) {
+        if (!assignment_.detection_used[static_cast<std::size_t>(item)] && !is_repeat(item)) {
             start_track(usable_, item, frame);
         }
     }
@@ -248,6 +249,7 @@ void TrackerCore::watch_heading(Track& track, int index, const Detection& detect
         turn = wrap_angle(inferred.theta - f.state.theta);
     }
     change_object_frame(track.window, Vec3::Zero(), turn);
+    track.window.heading_information = 0.0;
     const bool reversed = turn > 0.5 * kPi || turn < -0.5 * kPi;
     for (ObjectFrame& frame : track.window.frames) {
         if (reversed) {

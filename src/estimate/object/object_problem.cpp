@@ -55,6 +55,7 @@ void ObjectProblem::begin(const ObjectWindow& window, const Calibration& calibra
         const Pose& T_c_l = window.frames[k].T_c_l;
         views_[i] = {calibration.detection, {T_c_l.R, T_c_l.t + t_d_c}, calibration.width};
     }
+    held_theta_ = window.newest().state.theta;
     current_.size_m = window.size_m;
     for (std::size_t slot = 0; slot < current_.f_o.size(); ++slot) {
         current_.f_o[slot] = window.landmarks[slot].f_o;
@@ -130,7 +131,7 @@ double ObjectProblem::evaluate(const ObjectVariables& x, NormalEquations* system
     if (system != nullptr) {
         system->clear(frames_, features_.points(), true, Coupling::kPlanar);
     }
-    double cost = add_priors(x, system);
+    double cost = add_priors(x, system) + add_held_heading(x, system);
     for (int k = 0; k < frames_; ++k) {
         cost += add_boxes(x, k, system);
         cost += add_ground(x, k, system);
@@ -250,6 +251,22 @@ double ObjectProblem::add_motion(const ObjectVariables& x, int k, NormalEquation
         system->add_frame_pair(k - 1, k, H_pair);
     }
     return 0.5 * r.dot(r);
+}
+
+double ObjectProblem::add_held_heading(const ObjectVariables& x, NormalEquations* system) const {
+    if (!options_.hold_heading || !has_heading_) {
+        return 0.0;
+    }
+    const double w = window_->heading_information;
+    const double off = wrap_angle(x.state[static_cast<std::size_t>(frames_ - 1)].theta - held_theta_);
+    if (system != nullptr) {
+        Mat6 H = Mat6::Zero();
+        Vec6 g = Vec6::Zero();
+        H(3, 3) = w;
+        g(3) = w * off;
+        system->add_frame(frames_ - 1, H, g);
+    }
+    return 0.5 * w * off * off;
 }
 
 double ObjectProblem::add_priors(const ObjectVariables& x, NormalEquations* system) {

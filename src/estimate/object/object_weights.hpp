@@ -33,6 +33,15 @@ inline constexpr MotionNoise kPedestrianNoise{0.126, 0.10, 1.0, 0.8, 0.10, kEgoA
 /// A standing object: 0.01 m a frame (ego error), a heading that stays.
 inline constexpr MotionNoise kStandingNoise{0.04, 0.05, 0.01, 0.05, 0.05, kEgoAcross};
 
+/// Of a standing object's heading, that no number of frames tells better than.
+inline constexpr double kHeadingFloor_rad = 0.03;
+/// It is held by so much at least once it has stood for kHeadingHoldFrames: seen from straight ahead or behind, the
+/// edges leave 0.15 rad open, and within that nothing may turn it.
+inline constexpr double kHeadingHold_rad = 0.1;
+inline constexpr int kHeadingHoldFrames = 32;
+/// What the heading gains in variance with each frame in which the object moves: it turns.
+inline constexpr double kHeadingTurned_rad = 0.1;
+
 /// Standing is kept while the moving model explains the window only so much better (difference of |r|^2).
 inline constexpr double kStandingGain = 6.0;
 inline constexpr double kStandingGainKeep = 16.0;

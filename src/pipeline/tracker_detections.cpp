@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::int64_t kSameImage_us = 5000;  // stamps of one image may differ by rounding, not by half a frame
 constexpr int kWrongViews = 3;                // detections in a row that contradict the heading
+constexpr double kWithinClass_rad = 0.7;      // half of what a class of two faces spans
 constexpr double kStartDepthSigma = 0.15;     // of the depth: a size prior is off by so much
 
 /// Steps between two horizontal viewpoint classes on the circle of eight.
@@ -247,6 +248,9 @@ void TrackerCore::watch_heading(Track& track, int index, const Detection& detect
             return;
         }
         turn = wrap_angle(inferred.theta - f.state.theta);
+        if (track.window.standing && std::fabs(turn) < kWithinClass_rad) {
+            return;  // what all frames said while it stood knows better
+        }
     }
     change_object_frame(track.window, Vec3::Zero(), turn);
     track.window.heading_information = 0.0;

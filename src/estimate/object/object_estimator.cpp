@@ -56,7 +56,8 @@ ObjectSolveReport ObjectEstimator::solve(ObjectWindow& window, NormalEquations& 
     const LmReport moving = lm_;
     moving_ = problem_.variables();
     const int last = window.frames.size() - 1;
-    const bool slow = std::fabs(moving_.state[static_cast<std::size_t>(last)].v) < kStandingMaxSpeed;
+    const double most = window.standing ? kStandingMaxSpeedKeep : kStandingMaxSpeed;
+    const bool slow = std::fabs(moving_.state[static_cast<std::size_t>(last)].v) < most;
     bool standing = false;
     if (options_.cues.motion && slow && last >= 1) {
         run(window, true, system, step);

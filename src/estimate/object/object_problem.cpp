@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "estimate/factor/face_view.hpp"
 #include "estimate/factor/stereo_point.hpp"
 #include "estimate/object/object_weights.hpp"
 #include "math/robust.hpp"
@@ -134,6 +135,7 @@ double ObjectProblem::evaluate(const ObjectVariables& x, NormalEquations* system
     double cost = add_priors(x, system) + add_held_heading(x, system);
     for (int k = 0; k < frames_; ++k) {
         cost += add_boxes(x, k, system);
+        cost += add_view(x, k, system);
         cost += add_ground(x, k, system);
         if (k > 0) {
             cost += add_motion(x, k, system);
@@ -187,6 +189,28 @@ double ObjectProblem::add_boxes(const ObjectVariables& x, int k, NormalEquations
         system->add_shared(H_shared, g_shared);
     }
     return cost;
+}
+
+// Far off, the class is wrong. What it says hardly changes within a window, so all frames count once.
+double ObjectProblem::add_view(const ObjectVariables& x, int k, NormalEquations* system) const {
+    const ObjectFrame& frame = window_->frames[k];
+    if (!has_heading_ || !frame.box.valid) {
+        return 0.0;
+    }
+    const auto i = static_cast<std::size_t>(k);
+    const Vec3 camera_l = -(views_[i].T_d_l.R.transpose() * views_[i].T_d_l.t);
+    const FaceViewResidual view =
+        face_view_residual(x.state[i], x.size_m(1), camera_l, frame.box.viewpoint.horizontal, kViewSigma_rad);
+    const double share = 1.0 / static_cast<double>(frames_);
+    const Robust rho = cauchy(view.r * view.r, kViewCauchy);
+    if (system != nullptr) {
+        Mat6 H = Mat6::Zero();
+        Vec6 g = Vec6::Zero();
+        H(3, 3) = share * rho.weight * view.J_theta * view.J_theta;
+        g(3) = share * rho.weight * view.J_theta * view.r;
+        system->add_frame(k, H, g);
+    }
+    return 0.5 * share * rho.rho;
 }
 
 double ObjectProblem::add_ground(const ObjectVariables& x, int k, NormalEquations* system) {

@@ -53,6 +53,7 @@ public:
 private:
     double evaluate(const ObjectVariables& x, NormalEquations* system);
     double add_boxes(const ObjectVariables& x, int k, NormalEquations* system);
+    double add_view(const ObjectVariables& x, int k, NormalEquations* system) const;
     double add_ground(const ObjectVariables& x, int k, NormalEquations* system);
     double add_motion(const ObjectVariables& x, int k, NormalEquations* system);
     double add_held_heading(const ObjectVariables& x, NormalEquations* system) const;

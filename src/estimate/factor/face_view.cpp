@@ -28,7 +28,10 @@ FaceViewResidual face_view_residual(const ObjectState& x, double width_m, const 
     if (missed > 0.0) {
         const double scale = 1.0 / (range * sigma_rad);
         out.r = missed * scale;
+        const double inv2 = 1.0 / (range * range);
+        out.J_p = Vec3(out.r * dx * inv2 - side * h.sin * scale, out.r * dy * inv2 + side * h.cos * scale, 0.0);
         out.J_theta = side * along * scale;
+        out.J_width = 0.5 * scale;
     }
     return out;
 }

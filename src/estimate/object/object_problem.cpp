@@ -204,11 +204,14 @@ double ObjectProblem::add_view(const ObjectVariables& x, int k, NormalEquations*
     const double share = 1.0 / static_cast<double>(frames_);
     const Robust rho = cauchy(view.r * view.r, kViewCauchy);
     if (system != nullptr) {
-        Mat6 H = Mat6::Zero();
-        Vec6 g = Vec6::Zero();
-        H(3, 3) = share * rho.weight * view.J_theta * view.J_theta;
-        g(3) = share * rho.weight * view.J_theta * view.r;
-        system->add_frame(k, H, g);
+        const double w = share * rho.weight;
+        Vec6 J = Vec6::Zero();
+        J.head<3>() = view.J_p;
+        J(3) = view.J_theta;
+        const Vec3 J_size(0.0, view.J_width, 0.0);
+        system->add_frame(k, w * (J * J.transpose()), w * view.r * J);
+        system->add_shared(w * (J_size * J_size.transpose()), w * view.r * J_size);
+        system->add_frame_shared(k, w * (J * J_size.transpose()));
     }
     return 0.5 * share * rho.rho;
 }

@@ -71,6 +71,8 @@ private:
     [[nodiscard]] Box2d expected_box(const Track& track, int index) const;
     // tracker_association.cpp
     [[nodiscard]] std::array<double, 4> edge_tolerance(const Track& track, int index, const Box2d& expected) const;
+    void widen_hidden_edges();
+    [[nodiscard]] bool is_repeat(int item) const;
     [[nodiscard]] bool frame_of(std::int64_t time_us, std::uint32_t& frame, Pose& T_w_c) const;
 
     // tracker_features.cpp: stages 3 to 6

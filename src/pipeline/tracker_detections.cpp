@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::int64_t kSameImage_us = 5000;  // stamps of one image may differ by rounding, not by half a frame
 constexpr int kWrongViews = 3;                // detections in a row that contradict the heading
+constexpr double kWithinClass_rad = 0.7;      // half of what a class of two faces spans
 constexpr double kStartDepthSigma = 0.15;     // of the depth: a size prior is off by so much
 
 /// Steps between two horizontal viewpoint classes on the circle of eight.
@@ -133,6 +134,7 @@ void TrackerCore::take_list(const DetectionList& list, std::uint32_t frame) {
         (void)boxes_.try_push_back(box);
         (void)candidates_.try_push_back({s, index});
     }
+    widen_hidden_edges();
     associator_.run(boxes_, usable_, assignment_);
     for (int t = 0; t < candidates_.size(); ++t) {
         Track& track = tracks_[candidates_[t].slot];
@@ -148,7 +150,7 @@ void TrackerCore::take_list(const DetectionList& list, std::uint32_t frame) {
     end(Stage::kAssociate);
     begin(Stage::kInfer);
     for (int item = 0; item < usable_.items.size(); ++item) {
-        if (!assignment_.detection_used[static_cast<std::size_t>(item)]) {
+        if (!assignment_.detection_used[static_cast<std::size_t>(item)] && !is_repeat(item)) {
             start_track(usable_, item, frame);
         }
     }
@@ -246,8 +248,12 @@ void TrackerCore::watch_heading(Track& track, int index, const Detection& detect
             return;
         }
         turn = wrap_angle(inferred.theta - f.state.theta);
+        if (track.window.standing && std::fabs(turn) < kWithinClass_rad) {
+            return;  // what all frames said while it stood knows better
+        }
     }
     change_object_frame(track.window, Vec3::Zero(), turn);
+    track.window.heading_information = 0.0;
     const bool reversed = turn > 0.5 * kPi || turn < -0.5 * kPi;
     for (ObjectFrame& frame : track.window.frames) {
         if (reversed) {

@@ -17,6 +17,8 @@ constexpr double kMaxStereoDepth_m = 400.0;
 constexpr double kPartlyHidden = 0.8;  // share of the contour that is seen: KITTI's occlusion levels
 constexpr double kLargelyHidden = 0.4;
 constexpr double kBarelySeen = 0.1;
+// What is left of the contour below this share is its rim, where patches show what is behind and before the object.
+constexpr double kRimShare = 0.2;
 
 int occlusion_level(double visible_share) {
     if (visible_share > kPartlyHidden) {
@@ -111,7 +113,7 @@ void TrackerCore::set_priors() {
         const Track& track = tracks_[s];
         OwnerPrior& prior = priors_[static_cast<std::size_t>(s + 1)];
         prior = OwnerPrior{};
-        if (!track.alive || !config_.mask_objects || !config_.cues.features) {
+        if (!track.alive || !config_.mask_objects || !config_.cues.features || track.visible_share < kRimShare) {
             continue;
         }
         const ObjectWindow& window = track.window;

@@ -40,6 +40,7 @@ void ObjectEstimator::init(const Calibration& calibration, const Config& config)
 
 void ObjectEstimator::run(ObjectWindow& window, bool standing, NormalEquations& system, SolverStep& step) {
     options_.standing = standing;
+    options_.hold_heading = standing;
     problem_.begin(window, calibration_, options_);
     LmOptions lm;
     lm.iterations = kObjectIterations;
@@ -55,20 +56,24 @@ ObjectSolveReport ObjectEstimator::solve(ObjectWindow& window, NormalEquations& 
     const LmReport moving = lm_;
     moving_ = problem_.variables();
     const int last = window.frames.size() - 1;
-    const bool slow = std::fabs(moving_.state[static_cast<std::size_t>(last)].v) < kStandingMaxSpeed;
+    const double most = window.standing ? kStandingMaxSpeedKeep : kStandingMaxSpeed;
+    const bool slow = std::fabs(moving_.state[static_cast<std::size_t>(last)].v) < most;
     bool standing = false;
     if (options_.cues.motion && slow && last >= 1) {
         run(window, true, system, step);
         report.standing_gain = 2.0 * (lm_.final_cost - moving.final_cost);
         standing = report.standing_gain < (window.standing ? kStandingGainKeep : kStandingGain);
         if (!standing) {
-            options_.standing = false;
+            options_.standing = options_.hold_heading = false;
             problem_.begin(window, calibration_, options_);
             problem_.set(moving_);
             lm_ = moving;
         }
     }
     try_other_starts(window, standing, system, step);
+    if (turning_cost(window, problem_.variables()) >= kTurningMost) {
+        window.heading_information = 0.0;  // it was of another heading
+    }
     report.reason = lm_.reason;
     report.cost = lm_.final_cost;
     if (lm_.reason == LmReason::kInvalidCost || lm_.reason == LmReason::kNotObservable ||
@@ -92,6 +97,7 @@ ObjectSolveReport ObjectEstimator::solve(ObjectWindow& window, NormalEquations& 
         window.size_covariance = size_covariance;
     }
     carry_size(window);
+    carry_heading(window);
     report.solved = true;
     cull(window, report);
     for (const std::int16_t slot : report.culled) {
@@ -146,15 +152,21 @@ void ObjectEstimator::keep_better(const ObjectWindow& window, bool standing, Nor
                                   SolverStep& step) {
     chosen_ = problem_.variables();
     const LmReport chosen = lm_;
+    // What earlier frames said holds within their heading's reach; the twin pays for contradicting them.
+    const bool within = turning_cost(window, other_) < kTurningMost;
     const double cost = chosen.final_cost + heading_cost(window, chosen_) + outside_cost(window, chosen_);
     options_.standing = standing;
     problem_.begin(window, calibration_, options_);
+    problem_.hold_heading(standing && within);
     problem_.set(other_);
     LmOptions lm;
     lm.iterations = kObjectIterations;
     lm_ = levenberg_marquardt(problem_, lm, system, step);
     const ObjectVariables& x = problem_.variables();
-    if (!(lm_.final_cost + heading_cost(window, x) + outside_cost(window, x) < cost - kBetterBy)) {
+    const double other = lm_.final_cost + heading_cost(window, x) + outside_cost(window, x) +
+                         (standing && !within ? turning_cost(window, x) : 0.0);
+    if (!(other < cost - kBetterBy)) {
+        problem_.hold_heading(options_.hold_heading);
         problem_.set(chosen_);
         lm_ = chosen;
     }
@@ -173,6 +185,26 @@ void ObjectEstimator::carry_size(ObjectWindow& window) {
         const double floor = kSizeFloor * window.size_m(i);
         window.prior_size_covariance(i, i) += floor * floor;
     }
+}
+
+// A standing car does not turn. Every window says something of its heading with what it sees; of that the newest frame
+// is new.
+void ObjectEstimator::carry_heading(ObjectWindow& window) {
+    double& known = window.heading_information;
+    if (!window.standing) {
+        known /= 1.0 + known * kHeadingTurned_rad * kHeadingTurned_rad;
+        return;
+    }
+    const double anchor = 1.0 / (kAnchorHeading_rad * kAnchorHeading_rad);
+    const double variance = window.covariance(3, 3);
+    const double of_window = variance > 0.0 ? 1.0 / variance - known - anchor : 0.0;
+    known += of_window > 0.0 ? of_window / static_cast<double>(window.frames.size()) : 0.0;
+    // Where the edges say nothing, nothing turns it: the longer it stood, the less.
+    const int stood = window.stood < kHeadingHoldFrames ? window.stood : kHeadingHoldFrames;
+    const double least = static_cast<double>(stood) / (kHeadingHoldFrames * kHeadingHold_rad * kHeadingHold_rad);
+    known = known > least ? known : least;
+    constexpr double kMost = 1.0 / (kHeadingFloor_rad * kHeadingFloor_rad);
+    known = known < kMost ? known : kMost;
 }
 
 void ObjectEstimator::cull(const ObjectWindow& window, ObjectSolveReport& report) const {

@@ -32,6 +32,7 @@ private:
     void try_other_starts(const ObjectWindow& window, bool standing, NormalEquations& system, SolverStep& step);
     void keep_better(const ObjectWindow& window, bool standing, NormalEquations& system, SolverStep& step);
     static void carry_size(ObjectWindow& window);
+    static void carry_heading(ObjectWindow& window);
     void cull(const ObjectWindow& window, ObjectSolveReport& report) const;
     void give_birth(ObjectWindow& window) const;
 

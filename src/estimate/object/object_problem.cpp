@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "estimate/factor/face_view.hpp"
 #include "estimate/factor/stereo_point.hpp"
 #include "estimate/object/object_weights.hpp"
 #include "math/robust.hpp"
@@ -55,6 +56,7 @@ void ObjectProblem::begin(const ObjectWindow& window, const Calibration& calibra
         const Pose& T_c_l = window.frames[k].T_c_l;
         views_[i] = {calibration.detection, {T_c_l.R, T_c_l.t + t_d_c}, calibration.width};
     }
+    held_theta_ = window.newest().state.theta;
     current_.size_m = window.size_m;
     for (std::size_t slot = 0; slot < current_.f_o.size(); ++slot) {
         current_.f_o[slot] = window.landmarks[slot].f_o;
@@ -130,9 +132,10 @@ double ObjectProblem::evaluate(const ObjectVariables& x, NormalEquations* system
     if (system != nullptr) {
         system->clear(frames_, features_.points(), true, Coupling::kPlanar);
     }
-    double cost = add_priors(x, system);
+    double cost = add_priors(x, system) + add_held_heading(x, system);
     for (int k = 0; k < frames_; ++k) {
         cost += add_boxes(x, k, system);
+        cost += add_view(x, k, system);
         cost += add_ground(x, k, system);
         if (k > 0) {
             cost += add_motion(x, k, system);
@@ -186,6 +189,31 @@ double ObjectProblem::add_boxes(const ObjectVariables& x, int k, NormalEquations
         system->add_shared(H_shared, g_shared);
     }
     return cost;
+}
+
+// Far off, the class is wrong. What it says hardly changes within a window, so all frames count once.
+double ObjectProblem::add_view(const ObjectVariables& x, int k, NormalEquations* system) const {
+    const ObjectFrame& frame = window_->frames[k];
+    if (!has_heading_ || !frame.box.valid) {
+        return 0.0;
+    }
+    const auto i = static_cast<std::size_t>(k);
+    const Vec3 camera_l = -(views_[i].T_d_l.R.transpose() * views_[i].T_d_l.t);
+    const FaceViewResidual view =
+        face_view_residual(x.state[i], x.size_m(1), camera_l, frame.box.viewpoint.horizontal, kViewSigma_rad);
+    const double share = 1.0 / static_cast<double>(frames_);
+    const Robust rho = cauchy(view.r * view.r, kViewCauchy);
+    if (system != nullptr) {
+        const double w = share * rho.weight;
+        Vec6 J = Vec6::Zero();
+        J.head<3>() = view.J_p;
+        J(3) = view.J_theta;
+        const Vec3 J_size(0.0, view.J_width, 0.0);
+        system->add_frame(k, w * (J * J.transpose()), w * view.r * J);
+        system->add_shared(w * (J_size * J_size.transpose()), w * view.r * J_size);
+        system->add_frame_shared(k, w * (J * J_size.transpose()));
+    }
+    return 0.5 * share * rho.rho;
 }
 
 double ObjectProblem::add_ground(const ObjectVariables& x, int k, NormalEquations* system) {
@@ -250,6 +278,22 @@ double ObjectProblem::add_motion(const ObjectVariables& x, int k, NormalEquation
         system->add_frame_pair(k - 1, k, H_pair);
     }
     return 0.5 * r.dot(r);
+}
+
+double ObjectProblem::add_held_heading(const ObjectVariables& x, NormalEquations* system) const {
+    if (!options_.hold_heading || !has_heading_) {
+        return 0.0;
+    }
+    const double w = window_->heading_information;
+    const double off = wrap_angle(x.state[static_cast<std::size_t>(frames_ - 1)].theta - held_theta_);
+    if (system != nullptr) {
+        Mat6 H = Mat6::Zero();
+        Vec6 g = Vec6::Zero();
+        H(3, 3) = w;
+        g(3) = w * off;
+        system->add_frame(frames_ - 1, H, g);
+    }
+    return 0.5 * w * off * off;
 }
 
 double ObjectProblem::add_priors(const ObjectVariables& x, NormalEquations* system) {

@@ -21,6 +21,7 @@ namespace semtrack {
 struct ObjectProblemOptions {
     Cues cues{};
     bool standing{false};
+    bool hold_heading{false};  ///< what earlier frames said of the heading is a prior of the newest frame's
 };
 
 class ObjectProblem {
@@ -33,6 +34,8 @@ public:
         features_current_ = false;
     }
     [[nodiscard]] const ObjectVariables& variables() const { return current_; }
+    /// Whether the heading that the window came with is held; begin() says so at first.
+    void hold_heading(bool hold) { options_.hold_heading = hold; }
     /// Copies the variables into the window they came from.
     void store(ObjectWindow& window) const;
 
@@ -50,8 +53,10 @@ public:
 private:
     double evaluate(const ObjectVariables& x, NormalEquations* system);
     double add_boxes(const ObjectVariables& x, int k, NormalEquations* system);
+    double add_view(const ObjectVariables& x, int k, NormalEquations* system) const;
     double add_ground(const ObjectVariables& x, int k, NormalEquations* system);
     double add_motion(const ObjectVariables& x, int k, NormalEquations* system);
+    double add_held_heading(const ObjectVariables& x, NormalEquations* system) const;
     double add_priors(const ObjectVariables& x, NormalEquations* system);
     void choose_outlines();
     [[nodiscard]] Mat3 feature_rotation(const ObjectState& x) const;
@@ -62,6 +67,7 @@ private:
     MotionModelSpec motion_{};
     SizePrior size_prior_{};
     bool has_heading_{true};
+    double held_theta_{0};  // the newest heading that the window came with
     int frames_{0};
     std::array<BoxOutline, kObjectWindow> outlines_{};
     std::array<DetectionView, kObjectWindow> views_{};

@@ -114,6 +114,13 @@ double heading_cost(const ObjectWindow& window, const ObjectVariables& x) {
     return cost + (!viewed && window.stood < kStoodLong && newest.v < -kReverseSpeed ? kReverseCost : 0.0);
 }
 
+double turning_cost(const ObjectWindow& window, const ObjectVariables& x) {
+    const auto newest = static_cast<std::size_t>(window.frames.size() - 1);
+    const double turn = wrap_angle(x.state[newest].theta - window.newest().state.theta);
+    const double cost = 0.5 * window.heading_information * turn * turn;
+    return cost < kTurningMost ? cost : kTurningMost;
+}
+
 double outside_cost(const ObjectWindow& window, const ObjectVariables& x) {
     double sum = 0.0;
     int n = 0;

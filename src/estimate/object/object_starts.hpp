@@ -12,6 +12,10 @@ namespace semtrack {
 /// backwards costs, so that the sign of the speed tells front from rear; not for one that was parked: it backs out.
 [[nodiscard]] double heading_cost(const ObjectWindow& window, const ObjectVariables& x);
 
+/// Another heading than the one that was found while the object stood. Bounded: what was found may be the twin.
+inline constexpr double kTurningMost = 8.0;  // four frames that contradict
+[[nodiscard]] double turning_cost(const ObjectWindow& window, const ObjectVariables& x);
+
 /// Landmarks lie on the body: cost of those outside the box. The observations alone do not tie a box to its landmarks.
 [[nodiscard]] double outside_cost(const ObjectWindow& window, const ObjectVariables& x);
 

@@ -33,11 +33,25 @@ inline constexpr MotionNoise kPedestrianNoise{0.126, 0.10, 1.0, 0.8, 0.10, kEgoA
 /// A standing object: 0.01 m a frame (ego error), a heading that stays.
 inline constexpr MotionNoise kStandingNoise{0.04, 0.05, 0.01, 0.05, 0.05, kEgoAcross};
 
+/// A side that the detector's class names is seen at least under this angle less; far off the class is wrong.
+inline constexpr double kViewSigma_rad = 0.05;
+inline constexpr double kViewCauchy = 2.0;
+
+/// Of a standing object's heading, that no number of frames tells better than.
+inline constexpr double kHeadingFloor_rad = 0.03;
+/// It is held by so much at least once it has stood for kHeadingHoldFrames: seen from straight ahead or behind, the
+/// edges leave 0.15 rad open, and within that nothing may turn it.
+inline constexpr double kHeadingHold_rad = 0.1;
+inline constexpr int kHeadingHoldFrames = 32;
+/// What the heading gains in variance with each frame in which the object moves: it turns.
+inline constexpr double kHeadingTurned_rad = 0.1;
+
 /// Standing is kept while the moving model explains the window only so much better (difference of |r|^2).
 inline constexpr double kStandingGain = 6.0;
 inline constexpr double kStandingGainKeep = 16.0;
 /// A faster object is not taken for standing whatever the costs say.
 inline constexpr double kStandingMaxSpeed = 2.5;
+inline constexpr double kStandingMaxSpeedKeep = 5.0;  // one box cut by a nearer car is a speed of 3 m/s at 30 m
 
 }  // namespace semtrack
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "estimate/factor/box_edges.hpp"
+#include "estimate/factor/face_view.hpp"
 #include "estimate/factor/ground.hpp"
 #include "estimate/factor/motion.hpp"
 #include "estimate/factor/size_prior.hpp"
@@ -231,6 +232,46 @@ TEST(SizePrior, LongAndWideTogetherIsLikelierThanLongAndNarrow) {
     const SizePrior prior = size_prior(ObjectClass::kCar);
     EXPECT_LT(size_prior_cost(prior, prior.mean_m + Vec3(0.35, 0.12, 0.0)),
               size_prior_cost(prior, prior.mean_m + Vec3(0.35, -0.12, 0.0)));
+}
+
+TEST(FaceView, ASideThatTheClassNamesIsMissedByItsAngleAndOneThatIsSeenCostsNothing) {
+    // Heading away from the camera and 1 m to its left: the camera is 0.2 m outside the right side's plane.
+    const ObjectState x{Vec3(20.0, 1.0, 0.0), 0.0, 0.0, 0.0};
+    const Vec3 camera = Vec3::Zero();
+    EXPECT_EQ(face_view_residual(x, 1.6, camera, 7, 0.05).r, 0.0);
+    const double range = std::sqrt(401.0);
+    EXPECT_NEAR(face_view_residual(x, 1.6, camera, 5, 0.05).r, 1.8 / (range * 0.05), 1e-12);
+    for (const int whole_face : {-1, 0, 2, 4, 6}) {
+        EXPECT_EQ(face_view_residual(x, 1.6, camera, whole_face, 0.05).r, 0.0);
+    }
+    EXPECT_EQ(face_view_residual(x, 1.6, x.p, 5, 0.05).r, 0.0);  // inside the car
+}
+
+TEST(FaceView, JacobiansMatchCentralDifferencesAtEveryHeading) {
+    const Vec3 camera(1.0, 0.2, 0.1);
+    constexpr double kStep = 1e-6;
+    int checked = 0;
+    for (int k = 0; k < 24; ++k) {
+        for (const int view : {1, 3, 5, 7}) {
+            const ObjectState x{Vec3(15.0, -3.0, -0.8), -kPi + 0.01 + k * kPi / 12.0, 0.0, 0.0};
+            const auto r = [&](const ObjectState& y, double width) {
+                return face_view_residual(y, width, camera, view, 0.05).r;
+            };
+            const FaceViewResidual at = face_view_residual(x, 1.6, camera, view, 0.05);
+            if (!(at.r > 0.0)) {
+                continue;
+            }
+            ++checked;
+            for (int i = 0; i < 4; ++i) {
+                Vec6 d = Vec6::Zero();
+                d(i) = kStep;
+                const double numeric = (r(plus(x, d), 1.6) - r(plus(x, -d), 1.6)) / (2.0 * kStep);
+                EXPECT_NEAR(i < 3 ? at.J_p(i) : at.J_theta, numeric, 1e-6) << "heading " << x.theta << ", " << i;
+            }
+            EXPECT_NEAR(at.J_width, (r(x, 1.6 + kStep) - r(x, 1.6 - kStep)) / (2.0 * kStep), 1e-6);
+        }
+    }
+    EXPECT_GT(checked, 40);
 }
 
 TEST(Ground, DerivativesMatchCentralDifferencesAndSigmaGrowsWithDistance) {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "estimate/factor/face_view.hpp"
 #include "estimate/factor/stereo_point.hpp"
 #include "estimate/object/object_scene.hpp"
 #include "estimate/object/object_weights.hpp"
@@ -106,6 +107,7 @@ private:
             EdgeResiduals residuals;
             box_edge_residuals(frame.state, window_.object_class, window_.size_m, view, outline, frame.box, true,
                                residuals);
+            add_view(k);
             for (const EdgeResidual& e : residuals) {
                 if (!e.valid) {
                     continue;
@@ -118,6 +120,20 @@ private:
                         e.r, rho.weight);
             }
         }
+    }
+    void add_view(int k) {
+        if (!class_prior(window_.object_class).has_heading) {
+            return;
+        }
+        const ObjectFrame& frame = window_.frames[k];
+        const Vec3 camera_l = -(frame.T_c_l.R.transpose() * frame.T_c_l.t);
+        const FaceViewResidual v = face_view_residual(frame.state, window_.size_m(1), camera_l,
+                                                      frame.box.viewpoint.horizontal, kViewSigma_rad);
+        const Robust rho = cauchy(v.r * v.r, kViewCauchy);
+        const double share = 1.0 / window_.frames.size();
+        cost_ += 0.5 * share * rho.rho;
+        add_row({{6 * k, {v.J_p(0), v.J_p(1), v.J_p(2), v.J_theta}}, {at_size(), {0.0, v.J_width, 0.0}}}, v.r,
+                share * rho.weight);
     }
     void add_motion_and_priors() {
         const ClassPrior& prior = class_prior(window_.object_class);

@@ -80,6 +80,10 @@ private:
     void reject();
     void drop_feature(int owner, int slot);
 
+    // tracker_road.cpp: the road for ground contact
+    void place_vehicle();
+    void learn_road();
+
     // tracker_objects.cpp: stages 8 to 10
     void feed_features();
     void solve_objects();
@@ -103,6 +107,7 @@ private:
     EgoEstimator ego_{};
     EgoResult ego_result_{};
     GroundEstimator ground_{};
+    RoadPoints road_points_{};
     ObjectEstimator objects_{};
     TrackTable tracks_{};
     PatchMatcher patch_{};

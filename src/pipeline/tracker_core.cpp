@@ -58,6 +58,7 @@ Status TrackerCore::init(const Config& config, const Calibration& calibration, F
     level_.reset();
     ego_.init(calibration);
     ground_.init(config);
+    road_shape_.reset();
     objects_.init(calibration, config);
     tracks_.reset();
     unplaced_.clear();

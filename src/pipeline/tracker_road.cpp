@@ -12,66 +12,79 @@ namespace {
 constexpr double kNearest_m = 3.0;
 constexpr double kFarthest_m = 40.0;
 constexpr double kAside_m = 8.0;
+constexpr double kLane_m = 2.5;  // to each side of the camera's axis
 constexpr double kMinDisparity_px = 4.0;
-constexpr double kGateSlope = 0.04;  // a point that is off by more of its distance is no road (2.3 degrees) ...
-constexpr double kGate_m = 0.15;     // ... beside this
+constexpr double kGate_m = 0.15;        // a point of the road may leave the vehicle's plane by so much ...
+constexpr double kGateSlope = 0.04;     // ... and this share of the distance (three sigmas of the slope) ...
+constexpr double kLaneGateSlope = 0.2;  // ... a road that bends by this: steeper than any street
+constexpr double kGateSigmas = 3.0;     // ... and by the noise of its match
+
+double square(double x) {
+    return x * x;
+}
+
+bool within(double ahead_m, double left_m, double aside_m) {
+    return ahead_m > kNearest_m && ahead_m < kFarthest_m && std::fabs(left_m) < aside_m;
+}
 
 }  // namespace
 
 void TrackerCore::place_vehicle() {
     const Mat3 R_l_c = level_.R_l_w() * T_w_c_.R;
-    const Pose T_c_l{R_l_c.transpose(), Vec3::Zero()};
-    const Vec3 up = R_l_c * T_v_c_.R.transpose().col(2);
-    const Vec3 ahead = ahead_of(T_c_l);
-    if (up(2) > 0.5) {  // on its wheels
-        ground_.set_vehicle(-(up(0) * ahead(0) + up(1) * ahead(1)) / up(2),
-                            -(up(1) * ahead(0) - up(0) * ahead(1)) / up(2));
+    const Vec3 up_l = R_l_c * T_v_c_.R.transpose().col(2);
+    const Vec3 ahead = ahead_of({R_l_c.transpose(), Vec3::Zero()});
+    if (up_l(2) > 0.5) {  // on its wheels
+        ground_.set_vehicle(-(up_l(0) * ahead(0) + up_l(1) * ahead(1)) / up_l(2),
+                            -(up_l(1) * ahead(0) - up_l(0) * ahead(1)) / up_l(2));
+    }
+}
+
+// sigma and per_px are taken where the point's ray meets the vehicle's plane (ray t, fall: how fast it comes down on
+// it): a point that a wrong match threw far away is no better or worse than its neighbours.
+void TrackerCore::collect_road(const FeatureMeasurement& m) {
+    const double d = disparity(calibration_, static_cast<double>(m.u), static_cast<double>(m.u_right));
+    if (m.owner != kBackground || !m.stereo || !(d > kMinDisparity_px)) {
+        return;
+    }
+    const Mat3 R_l_c = level_.R_l_w() * T_w_c_.R;
+    const Pose T_c_l{R_l_c.transpose(), Vec3::Zero()};  // the camera is the origin
+    const Vec3 vehicle = ground_.vehicle_plane();
+    const Vec3 ray_l = R_l_c * bearing(calibration_.left, static_cast<double>(m.u), static_cast<double>(m.v));
+    const double depth_m = depth_from_disparity(calibration_, d);
+    const Vec3 ray = ground_row(T_c_l, ray_l);
+    const double fall = ray(1) * vehicle(1) + ray(2) * vehicle(2) - ray_l(2);
+    const double meets_m = vehicle(0) / (fall > 1e-3 ? fall : 1e-3);
+    const double t = meets_m < depth_m || depth_m > kFarthest_m ? meets_m : depth_m;
+    RoadPoint p;
+    p.ahead_m = ray(1) * depth_m;
+    p.left_m = ray(2) * depth_m;
+    p.up_m = ray_l(2) * depth_m;
+    const double sigma_d2 = square(static_cast<double>(m.sigma_px)) + square(static_cast<double>(m.sigma_right_px));
+    const double per_px = t * t * (fall > 0.0 ? fall : 0.0) / (calibration_.left.fx * calibration_.baseline_m);
+    p.sigma_m =
+        std::sqrt(square(per_px) * sigma_d2 + square(t / calibration_.left.fy * static_cast<double>(m.sigma_px)));
+    const double off = std::fabs(road_residual(p, vehicle)) - kGate_m - kGateSigmas * p.sigma_m;
+    if (fall > 0.0 && within(ray(1) * meets_m, ray(2) * meets_m, kAside_m) && off < kGateSlope * p.ahead_m) {
+        (void)road_points_.try_push_back(p);
+    }
+    if (within(p.ahead_m, p.left_m, kLane_m) && off < kLaneGateSlope * p.ahead_m) {
+        (void)lane_points_.try_push_back(p);
     }
 }
 
 void TrackerCore::learn_road() {
-    if (!config_.cues.ground || !features_usable_) {
-        return;
-    }
-    place_vehicle();
-    const Mat3 R_l_c = level_.R_l_w() * T_w_c_.R;
-    const Pose T_c_l{R_l_c.transpose(), Vec3::Zero()};  // the camera is the origin
-    const Vec3 vehicle = ground_.vehicle_plane();
     road_points_.clear();
-    for (const FeatureMeasurement& m : features_) {
-        const double d = disparity(calibration_, static_cast<double>(m.u), static_cast<double>(m.u_right));
-        if (m.owner != kBackground || !m.stereo || !(d > kMinDisparity_px)) {
-            continue;
+    lane_points_.clear();
+    place_vehicle();
+    if (config_.cues.ground && features_usable_) {
+        for (const FeatureMeasurement& m : features_) {
+            collect_road(m);
         }
-        const Vec3 ray_l = R_l_c * bearing(calibration_.left, static_cast<double>(m.u), static_cast<double>(m.v));
-        const Vec3 x_l = ray_l * depth_from_disparity(calibration_, d);
-        const Vec3 a = ground_row(T_c_l, x_l);
-        const Vec3 a_ray = ground_row(T_c_l, ray_l);
-        // Where the ray meets the vehicle's plane: ray_z t = -h + (s . ray) t
-        const double fall = a_ray(1) * vehicle(1) + a_ray(2) * vehicle(2) - ray_l(2);
-        const double t = fall > 0.0 ? vehicle(0) / fall : 0.0;
-        RoadPoint p;
-        p.ahead_m = a(1);
-        p.left_m = a(2);
-        p.up_m = x_l(2);
-        const double depth = t > 0.0 ? t : 1.0;
-        const double focal_baseline = calibration_.left.fx * calibration_.baseline_m;
-        p.per_px = depth * depth / focal_baseline * fall;
-        const double sigma_d = std::sqrt(static_cast<double>(m.sigma_px) * static_cast<double>(m.sigma_px) +
-                                         static_cast<double>(m.sigma_right_px) * static_cast<double>(m.sigma_right_px));
-        const double by_row = depth / calibration_.left.fy * static_cast<double>(m.sigma_px);
-        p.sigma_m = std::sqrt(p.per_px * p.per_px * sigma_d * sigma_d + by_row * by_row);
-        const double off = road_residual(p, vehicle);
-        const bool in_region = t * a_ray(1) > kNearest_m && t * a_ray(1) < kFarthest_m && t * a_ray(2) < kAside_m &&
-                               t * a_ray(2) > -kAside_m;
-        if (in_region && std::fabs(off) < kGate_m + kGateSlope * a(1) + 3.0 * p.sigma_m) {
-            (void)road_points_.try_push_back(p);
-        }
+        (void)ground_.add_road(road_points_, frame_);
     }
-    (void)ground_.add_road(road_points_, frame_);
-#ifdef ROAD_DEBUG
-    ROAD_DEBUG
-#endif
+    const GroundPlane plane = ground_.plane(-1);
+    health_.road_not_plane =
+        road_shape_.update(road_chi2(lane_points_, Vec3(plane.height_m, plane.slope_forward, plane.slope_left)));
 }
 
 }  // namespace semtrack

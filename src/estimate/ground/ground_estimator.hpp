@@ -45,7 +45,7 @@ private:
     };
 
     Vec3 mean_{Vec3::Zero()};  // of the prior
-    double fresh_{1};  // share of an object's evidence that the last fade() took
+    double fresh_{1};          // share of an object's evidence that the last fade() took
     Evidence prior_{};
     Evidence all_{};   // of objects that are gone
     Evidence road_{};  // of background points

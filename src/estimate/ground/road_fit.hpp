@@ -1,7 +1,9 @@
 // The road from stereo points of the background of one frame.
-//   point i:  z_i = (-1, f_i, l_i) Theta + g_i b + e_i,   e_i ~ N(0, sigma_i^2 + roughness^2)
+//   point i:  z_i = (-1, f_i, l_i) (Theta + c) + e_i,   e_i ~ N(0, sigma_i^2 + roughness^2)
 //   z: height above the camera, f, l: ahead and left of it (model/ground_plane.hpp);  Theta ~ N(prior)
-//   b ~ N(0, 0.15 px): what the calibration's disparity is off by, the same for all points of the frame; g = dz / dd
+//   c ~ N(0, S): what all points have in common, in this frame and the next ones. A disparity that the calibration has
+//   wrong by 0.4 px is a slope of h 0.4 / (fx b) = 0.0017; the road bends between the points and the objects; and boxes
+//   are not drawn to end on the road.
 // Kerbs, walls and plants are most of what is seen: of 64 planes through three points each and the prior's own, the one
 // of the least truncated cost  sum min(r^2 / s^2, 9) + prior  starts a fit with redescending weights (Tukey). So at
 // least half of the points have to be road, or the rest of them must not lie on one plane.
@@ -17,11 +19,10 @@
 namespace semtrack {
 
 struct RoadPoint {
-    double ahead_m{0};      ///< of the camera, level
+    double ahead_m{0};  ///< of the camera, level
     double left_m{0};
-    double up_m{0};         ///< z_p - z_c: negative
-    double sigma_m{0};      ///< of up_m, where the road is, by the noise of the match
-    double per_px{0};       ///< dz / dd there [m/px]
+    double up_m{0};     ///< z_p - z_c: negative
+    double sigma_m{0};  ///< of up_m, where the road is, by the noise of the match
 };
 using RoadPoints = StaticVector<RoadPoint, kMaxBackgroundFeatures>;
 

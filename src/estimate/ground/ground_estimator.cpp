@@ -19,6 +19,7 @@ constexpr double kHuber = 2.0;  // sigmas: a car on a drive-way, or of another s
 
 void GroundEstimator::init(const Config& config) {
     mean_ = Vec3(config.camera_height_m, 0.0, 0.0);
+    vehicle_ = mean_;
     const Vec3 sigma(config.camera_height_sigma_m, kSlopeForwardSigma, kSlopeLeftSigma);
     fresh_ = 1.0;
     prior_ = Evidence{};
@@ -62,7 +63,7 @@ void GroundEstimator::add(int slot, const Pose& T_c_l, const Vec3& x_l, double s
 }
 
 bool GroundEstimator::add_road(const RoadPoints& points, std::uint32_t seed) {
-    const RoadFit fit = fit_road(points, {mean_, prior_.information}, seed);
+    const RoadFit fit = fit_road(points, {vehicle_, prior_.information}, seed);
     if (!fit.valid) {
         return false;
     }
@@ -74,8 +75,8 @@ bool GroundEstimator::add_road(const RoadPoints& points, std::uint32_t seed) {
 
 void GroundEstimator::set_vehicle(double slope_forward, double slope_left) {
     if (std::isfinite(slope_forward) && std::isfinite(slope_left)) {
-        mean_(1) = slope_forward;
-        mean_(2) = slope_left;
+        vehicle_(1) = slope_forward;
+        vehicle_(2) = slope_left;
     }
 }
 

@@ -14,9 +14,9 @@ constexpr int kPasses = 5;   // of the fit, and 2 for each plane that is better 
 constexpr int kTrialPasses = 2;
 constexpr double kGate = 3.0;  // sigmas
 // What all points of a frame, and of the next ones, have in common:
-constexpr double kHeightSigma_m = 0.05;        // where boxes are drawn to end: labelled cars stand 0.04 m in the road
-constexpr double kSlopeForwardSigma = 0.0025;  // 0.4 px of disparity are 0.0017 on KITTI; roads bend
-constexpr double kSlopeLeftSigma = 0.004;      // crown
+constexpr double kHeightSigma_m = 0.1;        // where boxes are drawn to end: labelled cars stand 0.04 m in the road
+constexpr double kSlopeForwardSigma = 0.005;  // 0.4 px of disparity are 0.0017 on KITTI; roads bend
+constexpr double kSlopeLeftSigma = 0.01;      // crown
 
 Vec3 row_of(const RoadPoint& p) {
     return {-1.0, p.ahead_m, p.left_m};

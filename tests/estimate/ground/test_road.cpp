@@ -113,16 +113,17 @@ TEST(RoadFit, TheSameSeedGivesTheSameBits) {
     EXPECT_EQ(fit_road(points, prior(), 9).plane, fit_road(points, prior(), 9).plane);
 }
 
-TEST(GroundFromRoad, WithoutPointsThePlaneIsThePriorAboutTheVehicle) {
+TEST(GroundFromRoad, WithoutPointsThePlaneIsThePriorWhateverTheVehicleDoes) {
     GroundEstimator ground;
     ground.init(Config{});
     ground.set_vehicle(0.03, -0.01);
     EXPECT_FALSE(ground.add_road(RoadPoints{}, 1));
     EXPECT_NEAR(ground.plane(-1).height_m, kHeight, 1e-12);
-    EXPECT_NEAR(ground.plane(-1).slope_forward, 0.03, 1e-12);
-    EXPECT_NEAR(ground.plane(-1).slope_left, -0.01, 1e-12);
+    EXPECT_NEAR(ground.plane(-1).slope_forward, 0.0, 1e-12);
+    EXPECT_NEAR(ground.plane(-1).slope_left, 0.0, 1e-12);
+    EXPECT_EQ(ground.vehicle_plane(), Vec3(kHeight, 0.03, -0.01));
     ground.set_vehicle(std::numeric_limits<double>::quiet_NaN(), 0.0);
-    EXPECT_NEAR(ground.plane(-1).slope_forward, 0.03, 1e-12);
+    EXPECT_EQ(ground.vehicle_plane(), Vec3(kHeight, 0.03, -0.01));
 }
 
 TEST(GroundFromRoad, AHundredFramesAreNotSurerThanTheCalibrationAndTheRoadAre) {
@@ -134,8 +135,8 @@ TEST(GroundFromRoad, AHundredFramesAreNotSurerThanTheCalibrationAndTheRoadAre) {
     }
     const GroundPlane p = ground.plane(-1);
     EXPECT_NEAR(p.slope_forward, 0.01, 0.001);
-    EXPECT_GT(std::sqrt(p.covariance(1, 1)), 0.002);
-    EXPECT_LT(std::sqrt(p.covariance(1, 1)), 0.003);
+    EXPECT_GT(std::sqrt(p.covariance(1, 1)), 0.004);
+    EXPECT_LT(std::sqrt(p.covariance(1, 1)), 0.0052);
 }
 
 /// The lane ahead; beyond knee_m it bends by `bend`.
@@ -169,7 +170,7 @@ TEST(RoadShape, ACrestAndASagRaiseTheFlagAfterThreeFrames) {
 }
 
 TEST(RoadShape, AFlatRoadNeverRaisesIt) {
-    EXPECT_EQ(frames_flagged(300, 15.0, 0.0), 0);
+    EXPECT_EQ(frames_flagged(100, 15.0, 0.0), 0);
 }
 
 TEST(RoadShape, AWallAcrossTheLaneIsNoRoad) {

@@ -30,7 +30,7 @@ public:
     /// few of them are road, and nothing was learnt.
     bool add_road(const RoadPoints& points, std::uint32_t seed);
     /// Slopes at which the vehicle itself stands in L, about which background points are looked for. The prior of
-    /// plane() stays level: one frame's attitude carries bumps (pedestrians by boxes alone 6.8 to 7.0 % of distance).
+    /// plane() stays level: one frame's attitude carries bumps.
     void set_vehicle(double slope_forward, double slope_left);
     /// (h, s_f, s_l) of the plane on which the vehicle stands.
     [[nodiscard]] const Vec3& vehicle_plane() const { return vehicle_; }
@@ -47,7 +47,7 @@ private:
 
     Vec3 mean_{Vec3::Zero()};  // of the prior
     Vec3 vehicle_{Vec3::Zero()};
-    double fresh_{1};          // share of an object's evidence that the last fade() took
+    double fresh_{1};  // share of an object's evidence that the last fade() took
     Evidence prior_{};
     Evidence all_{};   // of objects that are gone
     Evidence road_{};  // of background points

@@ -160,6 +160,7 @@ public:
         const bool images = options_.drive.images;
         return {{"frames_dropped", images ? h.frames_dropped : 0},
                 {"frames_without_right", images ? h.frames_without_right : 0},
+                {"frames_road_not_plane", frames_road_not_plane_},
                 {"detection_lists", detections_.lists_handed_over()},
                 {"detection_lists_late", h.lists_late},
                 {"detection_lists_too_late", h.lists_too_late},
@@ -205,6 +206,7 @@ private:
         features_.add(*output_);
         stereo_checks_.add(stereo_.frame(), *output_);
         total_us_.push_back(timer_.timing().total_us);
+        frames_road_not_plane_ += output_->health.road_not_plane ? 1 : 0;
         if (pictures_) {
             pictures_->add(stereo_.frame(), stereo_.left(), *output_);
         }
@@ -228,6 +230,7 @@ private:
     std::unique_ptr<Cycle> cycle_;
     std::unique_ptr<Output> output_;
     std::vector<double> total_us_;
+    std::int64_t frames_road_not_plane_{0};
     FeatureCounter features_;
     StereoChecker stereo_checks_;
 };

@@ -171,6 +171,8 @@ struct Health {
     bool ego_degraded{false};               ///< predicted, or few inliers
     bool no_right_image{false};
     bool no_detections{false};              ///< no list came in this frame
+    bool road_not_plane{false};             ///< the road ahead leaves the plane of ground contact by more than twice
+                                            ///< what is admitted (0.06 m + 0.004 distance), for three frames or more
 };
 
 struct Output {

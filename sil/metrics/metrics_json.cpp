@@ -119,6 +119,16 @@ std::string precision_text(const AveragePrecision& precision) {
     return all.text();
 }
 
+std::string position_mean_text(const PositionMean& mean, int depth) {
+    JsonObject json(depth);
+    json.add("labels", mean.labels);
+    json.add("error_percent", mean.error_percent);
+    json.add("recall", mean.labels > 0
+                           ? std::optional<double>(static_cast<double>(mean.hits) / static_cast<double>(mean.labels))
+                           : std::nullopt);
+    return json.text();
+}
+
 std::string position_text(const PositionEvaluation& position) {
     JsonObject all(2);
     for (std::size_t d = 0; d < kDifficulties; ++d) {
@@ -136,6 +146,12 @@ std::string position_text(const PositionEvaluation& position) {
         json.member("error_percent_by_overlap", "[" + errors + "]");
         all.member(kDifficultyNames[d], json.text());
     }
+    JsonObject kitti(3);
+    for (std::size_t d = 0; d < kDifficulties; ++d) {
+        kitti.member(kDifficultyNames[d], position_mean_text(position.kitti(d), 4));
+    }
+    all.member("kitti", kitti.text());
+    all.member("pedestrians", position_mean_text(position.pedestrians(), 3));
     return all.text();
 }
 

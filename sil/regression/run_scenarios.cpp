@@ -111,6 +111,9 @@ private:
         ConvertOptions options;
         options.format = c.convert.format;
         options.in = c.convert.file;
+        if (!c.convert.object_class.empty()) {
+            options.object_class = c.convert.object_class;
+        }
         if (!c.convert.viewpoints.empty()) {
             options.labels_viewpoints = c.convert.viewpoints;
             options.labels = c.drive.root / "training" / "label_02" / (c.drive.sequence + ".txt");

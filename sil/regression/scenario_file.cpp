@@ -173,9 +173,12 @@ private:
         const Json& replay = merged.at("replay");
         if (merged.contains("convert")) {
             const Json& convert = merged["convert"];
-            require_keys(convert, {"format", "file", "viewpoints"}, "convert");
+            require_keys(convert, {"format", "file", "viewpoints", "class"}, "convert");
             c.convert.format = convert.at("format").get<std::string>();
             c.convert.file = existing(convert.at("file").get<std::string>(), c.missing);
+            if (convert.contains("class")) {
+                c.convert.object_class = convert["class"].get<std::string>();
+            }
             if (convert.contains("viewpoints")) {
                 c.convert.viewpoints = existing(convert["viewpoints"].get<std::string>(), c.missing);
             }

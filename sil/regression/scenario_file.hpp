@@ -37,6 +37,7 @@ struct DetectionSource2d {
     std::string format;  ///< empty: none
     std::filesystem::path file;
     std::filesystem::path viewpoints;
+    std::string object_class;  ///< of rows without class; empty: the format's own
 };
 
 struct ScenarioCase {

@@ -142,6 +142,7 @@ Canvas draw_overlay(int frame, const GreyImage& left, const Calibration& calibra
     head += output.health.ego_degraded ? "  degraded" : "";
     head += output.health.no_right_image ? "  no right image" : "";
     head += output.health.no_detections ? "  no detections" : "";
+    head += output.health.road_not_plane ? "  road not plane" : "";
     canvas.label(4, 3, head, kInk);
     return canvas;
 }

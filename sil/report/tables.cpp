@@ -62,6 +62,7 @@ std::string health_text(const Health& health) {
     add(health.ego_degraded, "ego_degraded");
     add(health.no_right_image, "no_right_image");
     add(health.no_detections, "no_detections");
+    add(health.road_not_plane, "road_not_plane");
     return text.empty() ? "ok" : text;
 }
 

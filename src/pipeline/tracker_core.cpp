@@ -58,6 +58,7 @@ Status TrackerCore::init(const Config& config, const Calibration& calibration, F
     level_.reset();
     ego_.init(calibration);
     ground_.init(config);
+    road_shape_.reset();
     objects_.init(calibration, config);
     tracks_.reset();
     unplaced_.clear();
@@ -96,6 +97,7 @@ Status TrackerCore::process(const Input& input, Output& output) {
     T_w_c_ = predict_ego(input);
 
     ground_.fade(dt_s);
+    place_vehicle();
     predict_tracks();   // the state of every track at this frame
     take_lists(input);  // 1, 2: infer, associate, attach
     build_masks();      // 3
@@ -103,6 +105,7 @@ Status TrackerCore::process(const Input& input, Output& output) {
     match(input);    // 4, 5
     reject();        // 6
     run_ego(input);  // 7
+    learn_road();
     feed_features();
     solve_objects();  // 8, 9
     level_.update(T_w_c_.R * T_v_c_.R.transpose(), dt_s);

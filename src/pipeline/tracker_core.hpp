@@ -7,6 +7,7 @@
 
 #include "estimate/ego/ego_estimator.hpp"
 #include "estimate/ground/ground_estimator.hpp"
+#include "estimate/ground/road_shape.hpp"
 #include "estimate/object/object_estimator.hpp"
 #include "front/associate/associate.hpp"
 #include "front/box/infer_box.hpp"
@@ -83,6 +84,11 @@ private:
     void reject();
     void drop_feature(int owner, int slot);
 
+    // tracker_road.cpp: the road for ground contact
+    void place_vehicle();
+    void collect_road(const FeatureMeasurement& m);
+    void learn_road();
+
     // tracker_objects.cpp: stages 8 to 10
     void feed_features();
     void solve_objects();
@@ -106,6 +112,9 @@ private:
     EgoEstimator ego_{};
     EgoResult ego_result_{};
     GroundEstimator ground_{};
+    RoadPoints road_points_{};  // that may be road, for the plane
+    RoadPoints lane_points_{};  // ahead, whatever they lie on, for its shape
+    RoadShape road_shape_{};
     ObjectEstimator objects_{};
     TrackTable tracks_{};
     ChosenMatcher matcher_{};

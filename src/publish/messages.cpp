@@ -12,10 +12,10 @@ constexpr MessageSpec kHeaderFd{
     "ListHeader",
     24,
     0,
-    15,
+    16,
     {S::kProtocolVersion, S::kObjectCount, S::kObjectsDropped, S::kImageTime, S::kImageAge, S::kEgoStatus, S::kEgoSpeed,
      S::kEgoYawRate, S::kSigmaEgoSpeed, S::kSigmaEgoYawRate, S::kEgoDegraded, S::kNoRightImage, S::kNoDetections,
-     S::kHeaderSaturated, S::kFramesDropped},
+     S::kHeaderSaturated, S::kFramesDropped, S::kRoadNotPlane},
     "Once a cycle, before the objects"};
 
 constexpr MessageSpec kPairFd{
@@ -50,8 +50,8 @@ constexpr DialectSpec kClassic{
       {"EgoMotion",
        8,
        0,
-       5,
-       {S::kEgoSpeed, S::kEgoYawRate, S::kEgoDegraded, S::kNoRightImage, S::kNoDetections},
+       6,
+       {S::kEgoSpeed, S::kEgoYawRate, S::kEgoDegraded, S::kNoRightImage, S::kNoDetections, S::kRoadNotPlane},
        "Third header message"},
       {"EgoSigma",
        8,

@@ -91,6 +91,7 @@ void header_values(const Output& output, const ListFacts& facts, SignalValues& v
     v.flag(SignalId::kEgoDegraded, h.ego_degraded);
     v.flag(SignalId::kNoRightImage, h.no_right_image);
     v.flag(SignalId::kNoDetections, h.no_detections);
+    v.flag(SignalId::kRoadNotPlane, h.road_not_plane);
     v.set(SignalId::kFramesDropped, modulo(h.frames_dropped, 1 << signal_spec(SignalId::kFramesDropped).length));
     v.flag(SignalId::kHeaderSaturated, v.saturated(0, kFirstObjectSignal));
 }

@@ -23,6 +23,8 @@ constexpr std::array<SignalSpec, static_cast<std::size_t>(kSignals)> kSpecs{{
     {"EgoDegraded", 2, false, 1.0, 0.0, "", kNoYes, "Ego motion is predicted, or few features agree with it"},
     {"NoRightImage", 2, false, 1.0, 0.0, "", kNoYes, "The right image is missing: no new depth from stereo"},
     {"NoDetections", 2, false, 1.0, 0.0, "", kNoYes, "No detection list came with this image"},
+    {"RoadNotPlane", 2, false, 1.0, 0.0, "", kNoYes,
+     "The road ahead bends: positions that rest on ground contact are less certain"},
     {"HeaderSaturated", 2, false, 1.0, 0.0, "", kNoYes, "A value of the header lies outside its range"},
     {"FramesDropped", 16, true, 1.0, 0.0, "", nullptr, "Images lost since start, modulo 2^16"},
     {"ObjectId", 12, false, 1.0, 0.0, "", nullptr,

@@ -26,6 +26,7 @@ enum class SignalId : std::uint8_t {
     kEgoDegraded,
     kNoRightImage,
     kNoDetections,
+    kRoadNotPlane,
     kHeaderSaturated,
     kFramesDropped,
     kObjectId,
@@ -55,7 +56,7 @@ enum class SignalId : std::uint8_t {
     kReferencePoint,
     kSaturated
 };
-inline constexpr int kSignals = 42;
+inline constexpr int kSignals = 43;
 inline constexpr int kFirstObjectSignal = static_cast<int>(SignalId::kObjectId);
 
 /// Names of values, "0 text;1 text;..." (text: letters, digits, blanks); null: a number.

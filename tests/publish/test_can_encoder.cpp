@@ -100,6 +100,14 @@ TEST_P(CanEncoderTest, HeaderSaysTimeAgeAndEgoMotion) {
     EXPECT_EQ(raw(SignalId::kHeaderSaturated), 0U);
 }
 
+TEST_P(CanEncoderTest, HeaderSaysThatTheRoadIsNoPlane) {
+    EXPECT_EQ(encode(), Status::kOk);
+    EXPECT_EQ(raw(SignalId::kRoadNotPlane), 0U);
+    output_->health.road_not_plane = true;
+    EXPECT_EQ(encode(), Status::kOk);
+    EXPECT_EQ(raw(SignalId::kRoadNotPlane), 1U);
+}
+
 TEST_P(CanEncoderTest, EveryValueOfAnObjectComesBackWithinHalfABit) {
     Rng rng(7);
     for (std::uint32_t k = 0; k < 9; ++k) {

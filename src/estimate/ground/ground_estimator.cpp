@@ -18,20 +18,24 @@ constexpr double kHuber = 2.0;  // sigmas: a car on a drive-way, or of another s
 }  // namespace
 
 void GroundEstimator::init(const Config& config) {
-    height_m_ = config.camera_height_m;
+    mean_ = Vec3(config.camera_height_m, 0.0, 0.0);
+    vehicle_ = mean_;
     const Vec3 sigma(config.camera_height_sigma_m, kSlopeForwardSigma, kSlopeLeftSigma);
     fresh_ = 1.0;
     prior_ = Evidence{};
     prior_.information = sigma.cwiseProduct(sigma).cwiseInverse().asDiagonal();
     all_ = Evidence{};
+    road_ = Evidence{};
     of_slot_.fill(Evidence{});
 }
 
 void GroundEstimator::fade(double dt_s) {
     const double keep = 1.0 / (1.0 + (dt_s > 0.0 ? dt_s : 0.0) / kMemory_s);
     fresh_ = 1.0 - keep;
-    all_.information *= keep;
-    all_.vector *= keep;
+    for (Evidence* e : {&all_, &road_}) {
+        e->information *= keep;
+        e->vector *= keep;
+    }
     for (Evidence& e : of_slot_) {
         e.information *= keep;
         e.vector *= keep;
@@ -55,7 +59,25 @@ void GroundEstimator::add(int slot, const Pose& T_c_l, const Vec3& x_l, double s
     const double share = of_object && !first ? fresh_ : 1.0;
     const double w = share * huber(r * r / variance, kHuber).weight / (sigma_m * sigma_m);
     e.information += w * (a * a.transpose());
-    e.vector += (w * (height + height_m_)) * a;
+    e.vector += (w * height) * a;
+}
+
+bool GroundEstimator::add_road(const RoadPoints& points, std::uint32_t seed) {
+    const RoadFit fit = fit_road(points, {vehicle_, prior_.information}, seed);
+    if (!fit.valid) {
+        return false;
+    }
+    const double share = road_.information(0, 0) == 0.0 ? 1.0 : fresh_;
+    road_.information += share * fit.information;
+    road_.vector += share * fit.vector;
+    return true;
+}
+
+void GroundEstimator::set_vehicle(double slope_forward, double slope_left) {
+    if (std::isfinite(slope_forward) && std::isfinite(slope_left)) {
+        vehicle_(1) = slope_forward;
+        vehicle_(2) = slope_left;
+    }
 }
 
 void GroundEstimator::release(int slot) {
@@ -66,8 +88,8 @@ void GroundEstimator::release(int slot) {
 }
 
 GroundPlane GroundEstimator::plane(int without_slot) const {
-    Mat3 information = prior_.information + all_.information;
-    Vec3 vector = all_.vector;
+    Mat3 information = prior_.information + all_.information + road_.information;
+    Vec3 vector = prior_.information * mean_ + all_.vector + road_.vector;
     for (int s = 0; s < kMaxObjects; ++s) {
         if (s != without_slot) {
             information += of_slot_[static_cast<std::size_t>(s)].information;
@@ -77,10 +99,10 @@ GroundPlane GroundEstimator::plane(int without_slot) const {
     GroundPlane out;
     out.valid = true;
     out.covariance = information.inverse();
-    const Vec3 change = out.covariance * vector;
-    out.height_m = height_m_ + change(0);
-    out.slope_forward = change(1);
-    out.slope_left = change(2);
+    const Vec3 theta = out.covariance * vector;
+    out.height_m = theta(0);
+    out.slope_forward = theta(1);
+    out.slope_left = theta(2);
     return out;
 }
 

@@ -85,6 +85,9 @@ TEST(Tables, TheFirstFrameHasNoMotionAndItsFieldsAreEmpty) {
     health.ego_degraded = true;
     health.no_detections = true;
     EXPECT_EQ(ego_row(4, ego, health), "4,5,predicted,1.5,0,0,0,0,0,ego_degraded+no_detections\n");
+    health = Health{};
+    health.road_not_plane = true;
+    EXPECT_EQ(ego_row(4, ego, health), "4,5,predicted,1.5,0,0,0,0,0,road_not_plane\n");
 }
 
 TEST(Tables, APedestrianDoesNotSteer) {

@@ -126,7 +126,7 @@ void object_values(const TrackedObject& o, std::uint8_t list_counter, SignalValu
     v.flag(SignalId::kTruncated, o.truncation > kTruncatedShare);
     v.set(SignalId::kOcclusion, o.occlusion);
     v.set(SignalId::kReferencePoint, 0.0);
-    v.flag(SignalId::kSaturated, v.saturated(kFirstObjectSignal, kSignals));
+    v.flag(SignalId::kSaturated, v.saturated(kFirstObjectSignal, kListSignals));
 }
 
 }  // namespace semtrack

@@ -28,11 +28,13 @@ struct E2eCheck {
 }
 
 /// A value in physical units. Not valid: sent as "not available" (or a code that this version does not know); value is
-/// then T{} and says nothing.
+/// then T{} and says nothing. Saturated: the true value lies outside the signal's range, value is the end of it (also
+/// said of a value that is exactly the end while another one of the same record is outside).
 template <class T>
 struct Received {
     T value{};
     bool valid{false};
+    bool saturated{false};
 };
 
 }  // namespace semtrack

@@ -11,7 +11,7 @@ constexpr std::array<SignalSpec, static_cast<std::size_t>(kSignals)> kSpecs{{
     {"ProtocolVersion", 4, true, 1.0, 0.0, "", nullptr, "Of this layout; others are to be ignored"},
     {"ObjectCount", 6, false, 1.0, 0.0, "", nullptr, "Objects that follow in this list"},
     {"ObjectsDropped", 6, false, 1.0, 0.0, "", nullptr,
-     "Tracked objects left out of this list: the farthest and least certain"},
+     "Road users left out of this list: beyond the places of the list or of the tracker"},
     {"ImageTime", 40, true, 1.0, 0.0, "us", nullptr,
      "Time stamp of the images, modulo 2^40 us (12.7 days); all values refer to it"},
     {"ImageAge", 16, false, 0.1, 0.0, "ms", nullptr, "Age of the images when the list was sent"},

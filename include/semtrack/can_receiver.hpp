@@ -7,7 +7,7 @@
 // the last frame of a list has come. Values are decoded by the encoder's own table.
 //
 // No heap, no exceptions, no recursion, no clock, no libm. sizeof(CanReceiver) is below kCanReceiverBytes; a
-// ReceivedList is about 12 KB and belongs to the caller. Cost: a CRC of at most 64 bytes a frame, and with the last
+// ReceivedList is 10.4 KB and belongs to the caller. Cost: a CRC of at most 64 bytes a frame, and with the last
 // frame of a list the decoding of at most 32 objects of 26 signals.
 #ifndef SEMTRACK_CAN_RECEIVER_HPP
 #define SEMTRACK_CAN_RECEIVER_HPP

@@ -23,7 +23,11 @@ struct Rank {
 class Values {
 public:
     explicit Values(SignalValues& v) : v_(v) { v_ = SignalValues{}; }
-    void set(SignalId id, double value) { v_[static_cast<std::size_t>(id)] = {value, true}; }
+    /// Not finite: not available.
+    void set(SignalId id, double value) {
+        const bool finite = std::isfinite(value);
+        v_[static_cast<std::size_t>(id)] = {finite ? value : 0.0, finite};
+    }
     void flag(SignalId id, bool value) { set(id, value ? 1.0 : 0.0); }
     /// 0 says that the component is not estimated.
     void sigma(SignalId id, double value) {

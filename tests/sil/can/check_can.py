@@ -24,9 +24,10 @@ def flipped(row, digit):
 def planted_frames(rows, matrix):
     """What has to be found in the frames."""
     digits = 2 * 64 if FD else 2 * 8
-    for digit in (0, 1, digits // 2, digits - 1):  # bytes behind the count, in the middle, the CRC
+    i = max(range(20), key=lambda k: len(rows[k]))
+    for digit in (0, 1, digits // 2, digits - 1):  # the last byte, the middle, the CRC
         broken = rows[:]
-        broken[7] = flipped(broken[7], digit)
+        broken[i] = flipped(broken[i], digit)
         yield f"a flipped bit, digit {digit}", broken
     yield "a lost frame", rows[:9] + rows[10:]
     yield "a frame that comes twice", rows[:9] + [rows[8]] + rows[9:]

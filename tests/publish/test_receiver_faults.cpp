@@ -122,6 +122,22 @@ TEST_P(ReceiverFaults, ForeignFrameWithinAListLosesIt) {
     }
 }
 
+TEST_P(ReceiverFaults, FrameWithAnotherIndexLosesTheListThoughItsProtectionIsRight) {
+    const Frames before = next_list();
+    const Frames list = next_list();
+    const Frames after = next_list();
+    for (std::size_t i = static_cast<std::size_t>(dialect().header_messages); i < list.size(); ++i) {
+        for (std::uint64_t index = 0; index < 16; ++index) {
+            Frames wrong = list;
+            put_bits(wrong[i].data, record_index_bit(dialect()), kRecordIndexBits, index);
+            protect(wrong[i], counter_of(list[i]));
+            const bool right = wrong[i].data == list[i].data;
+            EXPECT_EQ(disturb(before, wrong, after).size(), right ? 1U : 0U) << i << " " << index;
+            EXPECT_EQ(counters().frames_out_of_place > 0U, !right) << i << " " << index;
+        }
+    }
+}
+
 TEST_P(ReceiverFaults, TwoListsNeverMix) {
     const Frames before = next_list();
     const Frames first = next_list();

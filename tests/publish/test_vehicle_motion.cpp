@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <limits>
 
 #include "publish/signals.hpp"
 #include "semtrack/vehicle_motion_frame.hpp"
+#include "support/object_lists.hpp"
 
 namespace semtrack {
 namespace {
@@ -115,6 +117,21 @@ TEST_P(VehicleMotionFrame, OtherIdsAreNoNewDataAndOtherFormatsAreErrors) {
     EXPECT_EQ(decode_vehicle_motion(config_, other, check_, out_), E2eState::kError);
     EXPECT_FALSE(check_.started);
     EXPECT_EQ(good.id, GetParam() == CanDialect::kFd ? 0x602U : 0x60BU);
+}
+
+TEST_P(VehicleMotionFrame, GoldenFrameIsReproducedAndDecoded) {
+    const VehicleMotionSignals backing{{-2.5, true}, {0.125, true}, {0.06, true}, {}};
+    const CanFrame made = frame(backing, 5);
+    std::ifstream file(std::string(SEMTRACK_GOLDEN_FRAMES) + "/vehicle_motion.log");
+    std::string text;
+    for (int i = 0; i < (GetParam() == CanDialect::kFd ? 3 : 6); ++i) {
+        file >> text;
+    }
+    EXPECT_EQ(test::frame_text(made), text);
+    ASSERT_EQ(decode_vehicle_motion(config_, made, check_, out_), E2eState::kOk);
+    EXPECT_NEAR(out_.speed.value, -2.5, 1e-9);
+    EXPECT_NEAR(out_.yaw_rate.value, 0.125, 1e-9);
+    EXPECT_FALSE(out_.sigma_yaw_rate.valid);
 }
 
 INSTANTIATE_TEST_SUITE_P(Dialects, VehicleMotionFrame, ::testing::Values(CanDialect::kFd, CanDialect::kClassic),

@@ -52,7 +52,7 @@ def main():
     blocks = re.findall(r"```cpp\n(.*?)```", page, re.S)
     flat = re.sub(r"\s+", " ", example)
     problems += [f"not in receiver_example.cpp: {b[:60]!r}" for b in blocks if re.sub(r"\s+", " ", b).strip() not in flat]
-    golden = "".join((ROOT / f"tests/publish/golden/{d}.log").read_text() for d in ("fd", "classic"))
+    golden = "".join((ROOT / f"tests/publish/golden/{d}.log").read_text() for d in ("fd", "classic", "vehicle_motion"))
     frames = re.findall(r"^(?:\([\d.]+\) can0 )?([0-9A-F]{3}##?[0-9A-F]+)$", page, re.M)
     problems += [f"no golden frame: {f}" for f in frames if f not in golden]
     if not blocks or len(frames) < 3:

@@ -114,9 +114,10 @@ def check_file(text, dialect, base, extended):
 
 
 def check_golden(matrix, dialect):
-    """The fixed list of tests/support/object_lists.hpp, read with the DBC alone."""
+    """The fixed list of tests/support/object_lists.hpp and a VehicleMotion, read with the DBC alone."""
     problems, raws = [], {}
     log = (ROOT / "tests/publish/golden" / f"{dialect}.log").read_text()
+    log += (ROOT / "tests/publish/golden/vehicle_motion.log").read_text().splitlines()[dialect != "fd"]
     frames = {f.arbitration_id.id: f for f in matrix.frames}
     for _, number, fd, data in read_log(log):
         frame = frames[number]
@@ -141,7 +142,8 @@ GOLDEN = {("ObjectCount", 0): 3, ("ImageAge", 0): 35.0, ("EgoSpeed", 0): 8.4, ("
           ("FramesDropped", 0): 3, ("ImageTime", 0): 1317039265123456 % 2**40, ("ObjectId", 0): 7, ("ObjectId", 1): 1,
           ("ObjectId", 2): 300, ("PositionX", 0): 12.5, ("PositionY", 1): -4.0, ("VelocityX", 2): -13.2,
           ("Movement", 2): 3, ("Class", 1): 3, ("Status", 1): 2, ("Truncated", 1): 1, ("Height", 1): 1.75,
-          ("Yaw", 2): -3.2 + 0.0008 * 7875}
+          ("Yaw", 2): -3.2 + 0.0008 * 7875, ("VehicleSpeed", 0): -2.5, ("VehicleYawRate", 0): 0.125,
+          ("SigmaVehicleSpeed", 0): 0.06}
 
 PLANTED = [("0.01,-300", "1e-2,-300"), ("Length_1", "length_0"), ("m/s", "m\u00b2/s"), (" PositionX_0", " 1PositionX_0"),
            ("PositionX_0 : 75", "PositionX_0 : 74"), ('VAL_ 1537 Class_1', 'VAL_ 1537 PositionX_1'),

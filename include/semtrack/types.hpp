@@ -173,6 +173,7 @@ struct Health {
     bool no_detections{false};              ///< no list came in this frame
     bool road_not_plane{false};             ///< the road ahead leaves the plane of ground contact by more than twice
                                             ///< what is admitted (0.06 m + 0.004 distance), for three frames or more
+    std::uint32_t objects_untracked{0};     ///< of this frame: detections beyond a capacity
 };
 
 struct Output {

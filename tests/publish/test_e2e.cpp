@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <set>
 #include <string>
 
 #include "publish/e2e.hpp"
@@ -91,6 +92,33 @@ TEST(E2e, EveryFlippedBitChangesTheCrc) {
         FrameBytes broken = classic;
         broken[bit / 8] = static_cast<std::uint8_t>(broken[bit / 8] ^ (1U << (bit % 8)));
         EXPECT_NE(profile11_crc(broken, 8, 0x0604), crc11) << bit;
+    }
+}
+
+/// CRCs are linear: a pattern of flipped bits goes unseen when the bits' own changes of the check cancel each other.
+/// The change of a bit of the CRC itself is that bit.
+TEST(E2e, AnyTwoFlippedBitsOfAClassicFrameAndAnyThreeOfAnFdFrameAreFound) {
+    std::set<unsigned> changes8;
+    for (unsigned bit = 0; bit < 64; ++bit) {
+        FrameBytes one{};
+        one[bit / 8] = static_cast<std::uint8_t>(1U << (bit % 8));
+        const auto change = static_cast<unsigned>(profile11_crc(one, 8, 0) ^ profile11_crc({}, 8, 0) ^ one[0]);
+        EXPECT_NE(change, 0U);
+        EXPECT_TRUE(changes8.insert(change).second) << "two bits cancel: " << bit;
+    }
+    std::set<unsigned> changes16;
+    for (unsigned bit = 0; bit < 512; ++bit) {
+        FrameBytes one{};
+        one[bit / 8] = static_cast<std::uint8_t>(1U << (bit % 8));
+        const unsigned own = one[0] | static_cast<unsigned>(one[1]) << 8U;
+        const auto change = static_cast<unsigned>(profile5_crc(one, 64, 0) ^ profile5_crc({}, 64, 0)) ^ own;
+        EXPECT_NE(change, 0U);
+        EXPECT_TRUE(changes16.insert(change).second) << "two bits cancel: " << bit;
+    }
+    for (const unsigned a : changes16) {
+        for (const unsigned b : changes16) {
+            ASSERT_FALSE(a != b && changes16.count(a ^ b) > 0) << "three bits cancel";
+        }
     }
 }
 

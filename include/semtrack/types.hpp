@@ -155,6 +155,14 @@ struct SparsePoint {
     std::array<float, 3> position_w{};
 };
 
+/// The CAN bus as the sender sees it.
+enum class CanState : std::uint8_t {
+    kActive = 0,    ///< nothing is known to be wrong
+    kErrorPassive,  ///< the controller counts many errors; frames still go out
+    kBusOff,        ///< the controller has left the bus, or has no carrier
+    kDown           ///< the interface is down or gone
+};
+
 /// Counters only grow; flags are of this frame.
 struct Health {
     std::uint32_t frames{0};
@@ -171,6 +179,8 @@ struct Health {
     bool ego_degraded{false};               ///< predicted, or few inliers
     bool no_right_image{false};
     bool no_detections{false};              ///< no list came in this frame
+    std::uint32_t can_lists_dropped{0};     ///< object lists that did not get onto the bus whole, before this one
+    CanState can_state{CanState::kActive};  ///< before this frame's list; both are set by Cycle
 };
 
 struct Output {

@@ -39,6 +39,7 @@ struct ReplayOptions {
     Config config{};
     std::filesystem::path mount;
     CanDialect dialect{CanDialect::kFd};
+    std::string can_interface;  ///< empty: can.log only
     bool realtime{false};
     bool pictures{false};
     bool points{false};

@@ -179,6 +179,7 @@ struct Health {
     bool ego_degraded{false};               ///< predicted, or few inliers
     bool no_right_image{false};
     bool no_detections{false};              ///< no list came in this frame
+    std::uint32_t objects_untracked{0};     ///< of this frame: detections beyond the list's capacity or without a free slot
     std::uint32_t can_lists_dropped{0};     ///< object lists that did not get onto the bus whole, before this one
     CanState can_state{CanState::kActive};  ///< before this frame's list; both are set by Cycle
 };

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::uint32_t kExtendedFlag = 0x80000000U;
 constexpr int kCycle_ms = 100;
+constexpr int kMotionCycle_ms = 20;  // of VehicleMotion
 
 struct DbcSignal {
     std::string name;
@@ -23,20 +24,28 @@ struct DbcMessage {
     std::uint32_t id;
     std::uint32_t data_id;
     MessageSpec spec;
+    const char* sender;
+    const char* receiver;
+    int cycle_ms;
     std::vector<DbcSignal> signals;
 };
 
 std::string number(double x) {
-    char text[40];
-    (void)std::snprintf(text, sizeof text, "%.10g", x);
-    return text;
+    char text[40];  // never with an exponent: not every tool reads one; 40 bits are 13 digits
+    (void)std::snprintf(text, sizeof text, "%.6f", x);
+    std::string out = text;
+    out.erase(out.find_last_not_of('0') + 1);
+    if (out.back() == '.') {
+        out.pop_back();
+    }
+    return out;
 }
 
 SignalSpec plain(const char* name, int length, const char* comment) {
     return {name, static_cast<std::uint8_t>(length), true, 1.0, 0.0, "", nullptr, comment};
 }
 
-std::vector<DbcSignal> frame_signals(const DialectSpec& d) {
+std::vector<DbcSignal> protection_signals(const DialectSpec& d) {
     std::vector<DbcSignal> out;
     if (d.fd) {
         out.push_back({"E2eCrc", 0,
@@ -52,15 +61,24 @@ std::vector<DbcSignal> frame_signals(const DialectSpec& d) {
         out.push_back(
             {"E2eDataIdNibble", 12, plain("E2eDataIdNibble", 4, "E2E Profile 11: bits 8 to 11 of the data id")});
     }
-    const SignalSpec& counter = signal_spec(SignalId::kListCounter);
-    out.push_back({counter.name, list_counter_bit(d), counter});
     return out;
 }
 
-DbcMessage message_of(const CanConfig& config, const DialectSpec& d, int k) {
+DbcMessage bare_message(const CanConfig& config, const DialectSpec& d, int k, const MessageSpec& m) {
+    return {(config.base_id + static_cast<std::uint32_t>(k)) | (config.extended ? kExtendedFlag : 0U),
+            static_cast<std::uint32_t>(kE2eFirstDataId + k),
+            m,
+            "Semtrack",
+            "Receiver",
+            kCycle_ms,
+            protection_signals(d)};
+}
+
+DbcMessage list_message(const CanConfig& config, const DialectSpec& d, int k) {
     const MessageSpec& m = d.message[static_cast<std::size_t>(k)];
-    DbcMessage out{(config.base_id + static_cast<std::uint32_t>(k)) | (config.extended ? kExtendedFlag : 0U),
-                   static_cast<std::uint32_t>(kE2eFirstDataId + k), m, frame_signals(d)};
+    DbcMessage out = bare_message(config, d, k, m);
+    const SignalSpec& counter = signal_spec(SignalId::kListCounter);
+    out.signals.push_back({counter.name, list_counter_bit(d), counter});
     if (m.records > 0) {
         const char* comment = m.records > 1 ? "Number of the frame in the list: it holds objects 2 n and 2 n + 1"
                                             : "Number of the object in the list";
@@ -78,18 +96,38 @@ DbcMessage message_of(const CanConfig& config, const DialectSpec& d, int k) {
     return out;
 }
 
-std::string signal_row(const DbcSignal& s) {
+DbcMessage motion_message(const CanConfig& config, const DialectSpec& d) {
+    const MessageSpec& m = d.vehicle_motion;
+    DbcMessage out = bare_message(config, d, d.messages, m);
+    out.sender = "Vehicle";
+    out.receiver = "Semtrack";
+    out.cycle_ms = kMotionCycle_ms;
+    int bit = protection_bits(d);
+    for (int i = 0; i < m.signals; ++i) {
+        const SignalSpec& s = signal_spec(m.signal[static_cast<std::size_t>(i)]);
+        out.signals.push_back({s.name, bit, s});
+        bit += s.length;
+    }
+    return out;
+}
+
+std::string signal_row(const DbcSignal& s, const char* receiver) {
     const double lowest = s.spec.offset;
     const double highest = physical(s.spec, max_raw(s.spec));
     return " SG_ " + s.name + " : " + std::to_string(s.start) + "|" + std::to_string(s.spec.length) + "@1+ (" +
            number(s.spec.scale) + "," + number(s.spec.offset) + ") [" + number(lowest) + "|" + number(highest) +
-           "] \"" + s.spec.unit + "\" Receiver\n";
+           "] \"" + s.spec.unit + "\" " + receiver + "\n";
 }
 
+bool is_integer(const SignalSpec& s) {
+    return s.scale == 1.0 && s.offset == 0.0;
+}
+
+/// Of integers only: tools disagree whether the keys of a scaled signal are raw or physical values.
 std::string value_rows(const DbcMessage& m) {
     std::string out;
     for (const DbcSignal& s : m.signals) {
-        if (s.spec.counts) {
+        if (s.spec.counts || !is_integer(s.spec)) {
             continue;
         }
         out += "VAL_ " + std::to_string(m.id) + " " + s.name;
@@ -109,7 +147,8 @@ std::string value_rows(const DbcMessage& m) {
 std::string comment_rows(const DbcMessage& m) {
     std::string out = "CM_ BO_ " + std::to_string(m.id) + " \"" + m.spec.comment + "\";\n";
     for (const DbcSignal& s : m.signals) {
-        out += "CM_ SG_ " + std::to_string(m.id) + " " + s.name + " \"" + s.spec.comment + "\";\n";
+        out += "CM_ SG_ " + std::to_string(m.id) + " " + s.name + " \"" + s.spec.comment +
+               (s.spec.counts ? "" : ". All ones: not available") + "\";\n";
     }
     return out;
 }
@@ -118,7 +157,7 @@ std::string attribute_rows(const CanConfig& config, const DialectSpec& d, const 
     const std::string id = std::to_string(m.id);
     const int format = (d.fd ? 14 : 0) + (config.extended ? 1 : 0);
     std::string out = "BA_ \"VFrameFormat\" BO_ " + id + " " + std::to_string(format) + ";\n";
-    out += "BA_ \"GenMsgCycleTime\" BO_ " + id + " " + std::to_string(kCycle_ms) + ";\n";
+    out += "BA_ \"GenMsgCycleTime\" BO_ " + id + " " + std::to_string(m.cycle_ms) + ";\n";
     out += "BA_ \"E2eDataId\" BO_ " + id + " " + std::to_string(m.data_id) + ";\n";
     if (d.fd) {
         out += "BA_ \"CANFD_BRS\" BO_ " + id + " 1;\n";
@@ -160,14 +199,16 @@ std::string dbc_text(const CanConfig& config) {
     const DialectSpec& d = dialect_spec(config.dialect);
     std::vector<DbcMessage> messages;
     for (int k = 0; k < d.messages; ++k) {
-        messages.push_back(message_of(config, d, k));
+        messages.push_back(list_message(config, d, k));
     }
+    messages.push_back(motion_message(config, d));
     std::string out =
-        "VERSION \"" + std::to_string(kProtocolVersion) + "\"\n\nNS_ :\n\nBS_:\n\nBU_: Semtrack Receiver\n\n";
+        "VERSION \"" + std::to_string(kProtocolVersion) + "\"\n\nNS_ :\n\nBS_:\n\nBU_: Semtrack Receiver Vehicle\n\n";
     for (const DbcMessage& m : messages) {
-        out += "BO_ " + std::to_string(m.id) + " " + m.spec.name + ": " + std::to_string(m.spec.length) + " Semtrack\n";
+        out += "BO_ " + std::to_string(m.id) + " " + m.spec.name + ": " + std::to_string(m.spec.length) + " " +
+               m.sender + "\n";
         for (const DbcSignal& s : m.signals) {
-            out += signal_row(s);
+            out += signal_row(s, m.receiver);
         }
         out += "\n";
     }

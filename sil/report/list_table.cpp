@@ -9,7 +9,8 @@ namespace {
 
 std::string row(int frame, std::int64_t time_us, const std::string& object, const SignalValues& values) {
     std::string out = std::to_string(frame) + "," + std::to_string(time_us) + "," + object;
-    for (const SignalValue& v : values) {
+    for (int i = 0; i < kListSignals; ++i) {
+        const SignalValue& v = values[static_cast<std::size_t>(i)];
         out += v.available ? "," + number_text(v.value) : ",";
     }
     return out + "\n";
@@ -19,7 +20,7 @@ std::string row(int frame, std::int64_t time_us, const std::string& object, cons
 
 std::string list_header() {
     std::string out = "frame,time_us,object";
-    for (int i = 0; i < kSignals; ++i) {
+    for (int i = 0; i < kListSignals; ++i) {
         out += std::string(",") + signal_spec(static_cast<SignalId>(i)).name;
     }
     return out + "\n";

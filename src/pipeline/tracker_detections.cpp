@@ -96,6 +96,7 @@ bool TrackerCore::frame_of(std::int64_t time_us, std::uint32_t& frame, Pose& T_w
 
 void TrackerCore::take_lists(const Input& input) {
     health_.no_detections = input.detections == nullptr || input.detections->empty();
+    health_.objects_untracked = 0;
     if (input.detections == nullptr) {
         return;
     }
@@ -103,6 +104,7 @@ void TrackerCore::take_lists(const Input& input) {
         std::uint32_t frame = 0;
         Pose T_w_c;
         health_.detections_dropped += list.dropped;
+        health_.objects_untracked += list.dropped;
         if (!frame_of(list.time_us, frame, T_w_c)) {
             ++health_.lists_too_late;
             continue;
@@ -328,6 +330,7 @@ void TrackerCore::start_track(const DetectionList& list, int item, std::uint32_t
     Track* track = tracks_.start(detection.object_class, detection.score, slot);
     if (track == nullptr) {
         ++health_.tracks_dropped;
+        ++health_.objects_untracked;
         return;
     }
     ObjectWindow& window = track->window;

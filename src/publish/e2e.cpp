@@ -2,6 +2,25 @@
 
 namespace semtrack {
 
+namespace {
+
+/// The counter against the last one's, both below `counters`.
+E2eState check_counter(int counter, int counters, int max_delta, E2eCheck& check) {
+    const int delta = (counter + counters - check.counter) % counters;
+    const bool first = !check.started;
+    check.started = true;
+    check.counter = static_cast<std::uint8_t>(counter);
+    if (first || delta == 1) {
+        return E2eState::kOk;
+    }
+    if (delta == 0) {
+        return E2eState::kRepeated;
+    }
+    return delta <= max_delta ? E2eState::kOkSomeLost : E2eState::kWrongSequence;
+}
+
+}  // namespace
+
 std::uint16_t crc16_1021(std::uint16_t crc, std::uint8_t byte) {
     unsigned c = crc ^ (static_cast<unsigned>(byte) << 8U);
     for (int bit = 0; bit < 8; ++bit) {
@@ -45,6 +64,22 @@ void protect_profile11(FrameBytes& data, int length, std::uint16_t data_id, std:
     put_bits(data, 8, 4, counter);
     put_bits(data, 12, 4, (static_cast<unsigned>(data_id) >> 8U) & 0xFU);
     data[0] = profile11_crc(data, length, data_id);
+}
+
+E2eState check_profile5(const FrameBytes& data, int length, std::uint16_t data_id, E2eCheck& check) {
+    if (get_bits(data, 0, 16) != profile5_crc(data, length, data_id)) {
+        return E2eState::kError;
+    }
+    return check_counter(data[2], kProfile5Counters, kProfile5MaxDelta, check);
+}
+
+E2eState check_profile11(const FrameBytes& data, int length, std::uint16_t data_id, E2eCheck& check) {
+    const auto counter = static_cast<int>(get_bits(data, 8, 4));
+    const bool ours = get_bits(data, 12, 4) == ((static_cast<unsigned>(data_id) >> 8U) & 0xFU);
+    if (!ours || counter >= kProfile11Counters || data[0] != profile11_crc(data, length, data_id)) {
+        return E2eState::kError;
+    }
+    return check_counter(counter, kProfile11Counters, kProfile11MaxDelta, check);
 }
 
 }  // namespace semtrack

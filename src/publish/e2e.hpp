@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "publish/bits.hpp"
+#include "semtrack/received.hpp"
 
 namespace semtrack {
 
@@ -23,12 +24,21 @@ inline constexpr int kProfile5Counters = 256;
 void protect_profile5(FrameBytes& data, int length, std::uint16_t data_id, std::uint8_t counter);
 [[nodiscard]] std::uint16_t profile5_crc(const FrameBytes& data, int length, std::uint16_t data_id);
 
+/// Counter step that is still kOkSomeLost: four full lists of 16 object frames.
+inline constexpr int kProfile5MaxDelta = 64;
+
 inline constexpr int kProfile11Bits = 16;      // CRC 8, counter 4, data id nibble 4
 inline constexpr int kProfile11Counters = 15;  // 0..14; 15 is not used
 /// Writes CRC, counter (low nibble of byte 1) and bits 8..11 of the data id (high nibble). The CRC covers the data
 /// id's low byte, a zero, then bytes 1..length-1: the profile's "nibble" mode.
 void protect_profile11(FrameBytes& data, int length, std::uint16_t data_id, std::uint8_t counter);
 [[nodiscard]] std::uint8_t profile11_crc(const FrameBytes& data, int length, std::uint16_t data_id);
+/// Half of the counter: more would leave no room for kWrongSequence.
+inline constexpr int kProfile11MaxDelta = 7;
+
+/// Checks CRC, data id and counter of a frame that has the message's length. A wrong CRC leaves `check` untouched.
+[[nodiscard]] E2eState check_profile5(const FrameBytes& data, int length, std::uint16_t data_id, E2eCheck& check);
+[[nodiscard]] E2eState check_profile11(const FrameBytes& data, int length, std::uint16_t data_id, E2eCheck& check);
 
 }  // namespace semtrack
 

@@ -30,7 +30,16 @@ constexpr MessageSpec kPairFd{
      S::kReferencePoint, S::kSaturated},
     "Two objects; as many frames a cycle as ObjectCount asks for, slots behind the last object are all ones"};
 
-constexpr DialectSpec kFd{"fd", true, 2, 1, kMaxObjects, "PairIndex", {{kHeaderFd, kPairFd}}};
+constexpr MessageSpec vehicle_motion(std::uint8_t length) {
+    return {"VehicleMotion",
+            length,
+            0,
+            4,
+            {S::kVehicleSpeed, S::kVehicleYawRate, S::kSigmaVehicleSpeed, S::kSigmaVehicleYawRate},
+            "The vehicle's own motion, received by semtrack; valid at its reception"};
+}
+
+constexpr DialectSpec kFd{"fd", true, 2, 1, kMaxObjects, "PairIndex", {{kHeaderFd, kPairFd}}, vehicle_motion(12)};
 
 // 16 objects: 32 would take more than half of a bus of 500 kbit/s at ten lists a second.
 constexpr DialectSpec kClassic{
@@ -75,7 +84,8 @@ constexpr DialectSpec kClassic{
        1,
        3,
        {S::kSigmaVelocityX, S::kSigmaVelocityY, S::kSigmaYaw},
-       "One a cycle and object"}}}};
+       "One a cycle and object"}}},
+    vehicle_motion(8)};
 
 }  // namespace
 
@@ -83,8 +93,12 @@ const DialectSpec& dialect_spec(CanDialect dialect) {
     return dialect == CanDialect::kClassic ? kClassic : kFd;
 }
 
-int list_counter_bit(const DialectSpec& dialect) {
+int protection_bits(const DialectSpec& dialect) {
     return dialect.fd ? kProfile5Bits : kProfile11Bits;
+}
+
+int list_counter_bit(const DialectSpec& dialect) {
+    return protection_bits(dialect);
 }
 
 int record_index_bit(const DialectSpec& dialect) {

@@ -33,11 +33,13 @@ struct DialectSpec {
     std::uint8_t max_objects;
     const char* index_name;  ///< of the record index: frame k starts with record k * records
     std::array<MessageSpec, static_cast<std::size_t>(kMaxMessages)> message;
+    MessageSpec vehicle_motion;  ///< received by semtrack: message number `messages`; signals follow the protection
 };
 
 [[nodiscard]] const DialectSpec& dialect_spec(CanDialect dialect);
 
-/// First bits of a frame's parts.
+/// First bits of a frame's parts: behind the protection, ...
+[[nodiscard]] int protection_bits(const DialectSpec& dialect);
 [[nodiscard]] int list_counter_bit(const DialectSpec& dialect);
 [[nodiscard]] int record_index_bit(const DialectSpec& dialect);
 [[nodiscard]] int first_signal_bit(const DialectSpec& dialect, const MessageSpec& message);

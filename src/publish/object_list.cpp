@@ -80,7 +80,7 @@ void header_values(const Output& output, const ListFacts& facts, SignalValues& v
     v.set(SignalId::kListCounter, facts.list_counter);
     v.set(SignalId::kProtocolVersion, kProtocolVersion);
     v.set(SignalId::kObjectCount, facts.objects);
-    v.set(SignalId::kObjectsDropped, facts.dropped);
+    v.set(SignalId::kObjectsDropped, facts.dropped + static_cast<double>(h.objects_untracked));
     v.set(SignalId::kImageTime, modulo(e.time_us, std::int64_t{1} << signal_spec(SignalId::kImageTime).length));
     v.set(SignalId::kImageAge, static_cast<double>(facts.now_us - e.time_us) * 1e-3);
     v.set(SignalId::kEgoStatus, static_cast<double>(e.status));
@@ -126,7 +126,7 @@ void object_values(const TrackedObject& o, std::uint8_t list_counter, SignalValu
     v.flag(SignalId::kTruncated, o.truncation > kTruncatedShare);
     v.set(SignalId::kOcclusion, o.occlusion);
     v.set(SignalId::kReferencePoint, 0.0);
-    v.flag(SignalId::kSaturated, v.saturated(kFirstObjectSignal, kSignals));
+    v.flag(SignalId::kSaturated, v.saturated(kFirstObjectSignal, kListSignals));
 }
 
 }  // namespace semtrack

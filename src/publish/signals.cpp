@@ -11,7 +11,7 @@ constexpr std::array<SignalSpec, static_cast<std::size_t>(kSignals)> kSpecs{{
     {"ProtocolVersion", 4, true, 1.0, 0.0, "", nullptr, "Of this layout; others are to be ignored"},
     {"ObjectCount", 6, false, 1.0, 0.0, "", nullptr, "Objects that follow in this list"},
     {"ObjectsDropped", 6, false, 1.0, 0.0, "", nullptr,
-     "Tracked objects left out of this list: the farthest and least certain"},
+     "Road users left out of this list: beyond the places of the list or of the tracker"},
     {"ImageTime", 40, true, 1.0, 0.0, "us", nullptr,
      "Time stamp of the images, modulo 2^40 us (12.7 days); all values refer to it"},
     {"ImageAge", 16, false, 0.1, 0.0, "ms", nullptr, "Age of the images when the list was sent"},
@@ -55,6 +55,12 @@ constexpr std::array<SignalSpec, static_cast<std::size_t>(kSignals)> kSpecs{{
     {"ReferencePoint", 3, false, 1.0, 0.0, "", "0 box centre;1 middle of the bottom face",
      "The point of the 3D box that the position is of; always the box centre in this version"},
     {"Saturated", 2, false, 1.0, 0.0, "", kNoYes, "A value of this object lies outside its range"},
+    {"VehicleSpeed", 16, false, 0.005, -100.0, "m/s", nullptr,
+     "Along the vehicle's x axis, negative when reversing; outside the range: not available"},
+    {"VehicleYawRate", 16, false, 0.0001, -3.2, "rad/s", nullptr,
+     "Positive to the left; outside the range: not available"},
+    {"SigmaVehicleSpeed", 8, false, 0.02, 0.0, "m/s", nullptr, "Standard deviation of VehicleSpeed"},
+    {"SigmaVehicleYawRate", 8, false, 0.001, 0.0, "rad/s", nullptr, "Standard deviation of VehicleYawRate"},
 }};
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 namespace semtrack {
 
-/// The header's signals first, then an object's.
+/// The header's signals first, then an object's, then those of the vehicle motion that semtrack receives.
 enum class SignalId : std::uint8_t {
     kListCounter,
     kProtocolVersion,
@@ -53,10 +53,15 @@ enum class SignalId : std::uint8_t {
     kTruncated,
     kOcclusion,
     kReferencePoint,
-    kSaturated
+    kSaturated,
+    kVehicleSpeed,
+    kVehicleYawRate,
+    kSigmaVehicleSpeed,
+    kSigmaVehicleYawRate
 };
-inline constexpr int kSignals = 42;
+inline constexpr int kSignals = 46;
 inline constexpr int kFirstObjectSignal = static_cast<int>(SignalId::kObjectId);
+inline constexpr int kListSignals = static_cast<int>(SignalId::kVehicleSpeed);  // those of the object list
 
 /// Names of values, "0 text;1 text;..." (text: letters, digits, blanks); null: a number.
 using ValueNames = const char*;

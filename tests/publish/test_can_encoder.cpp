@@ -114,7 +114,7 @@ TEST_P(CanEncoderTest, EveryValueOfAnObjectComesBackWithinHalfABit) {
     for (int k = 0; k < order.size(); ++k) {
         SignalValues expected;
         object_values(output_->objects[order[k]], encoder_.list_counter(), expected);
-        for (int i = kFirstObjectSignal; i < kSignals; ++i) {
+        for (int i = kFirstObjectSignal; i < kListSignals; ++i) {
             const auto id = static_cast<SignalId>(i);
             const SignalValue& v = expected[static_cast<std::size_t>(i)];
             ASSERT_TRUE(v.available) << signal_spec(id).name;

@@ -103,7 +103,7 @@ TEST(Messages, EveryFrameHoldsItsSignals) {
 TEST(Messages, EverySignalIsSentExactlyOnce) {
     for (const CanDialect dialect : kDialects) {
         const DialectSpec& d = dialect_spec(dialect);
-        std::bitset<kSignals> sent;
+        std::bitset<kListSignals> sent;
         sent.set(static_cast<std::size_t>(SignalId::kListCounter));
         for (int m = 0; m < d.messages; ++m) {
             const MessageSpec& spec = d.message[static_cast<std::size_t>(m)];

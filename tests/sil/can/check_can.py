@@ -41,7 +41,8 @@ def check_dbc():
         for frame in load(dialect).frames:
             if frame.is_fd != (dialect == "fd"):
                 problems.append(f"{name}: {frame.name}: wrong frame format")
-            if frame.attributes.get("GenMsgCycleTime") != "100" or not frame.comment:
+            cycle_ms = "20" if frame.name == "VehicleMotion" else "100"
+            if frame.attributes.get("GenMsgCycleTime") != cycle_ms or not frame.comment:
                 problems.append(f"{name}: {frame.name}: no cycle time or comment")
             for signal in frame.signals:
                 if not signal.comment:
@@ -121,7 +122,7 @@ def lists_of(log, matrix, fd):
 
 def compare(name, value, text, where):
     signal = value.signal
-    missing = value.raw_value == (1 << signal.size) - 1 and "not available" in signal.values.values()
+    missing = value.raw_value == (1 << signal.size) - 1 and "GenSigStartValue" in signal.attributes
     if text == "":
         return None if missing else f"{where}: {name} is sent but not in list.csv"
     if missing:

@@ -65,6 +65,7 @@ void add_replay(CLI::App& app, ReplayOptions& o, Words& w) {
     app.add_option("--features", w.features)->check(CLI::IsMember({"images", "simulated"}));
     app.add_option("--feature-noise", o.feature_noise_px, "px, of simulated features (0.5)")
         ->check(CLI::Range(0.01, 10.0));
+    app.add_option("--vehicle-motion", o.vehicle_motion, "FILE or simulated: the vehicle's own speed and yaw rate");
     app.add_option("--can-dialect", w.can_dialect)->check(CLI::IsMember({"fd", "classic"}));
     CLI::Option* const can = app.add_option("--can", o.can_interface, "SocketCAN interface to send on");
     can->each([](const std::string& name) {

@@ -12,6 +12,7 @@
 #include "sil/can_output.hpp"
 #include "sil/evaluation.hpp"
 #include "sil/kitti/detection_file.hpp"
+#include "sil/kitti/vehicle_motion_file.hpp"
 #include "sil/open_drive.hpp"
 #include "sil/report/picture_writer.hpp"
 #include "sil/report/progress.hpp"
@@ -85,6 +86,17 @@ Drive open(const ReplayOptions& o) {
     return d;
 }
 
+std::map<std::int64_t, VehicleMotion> vehicle_motion_rows(const ReplayOptions& o, const Sequence& sequence) {
+    if (o.vehicle_motion != "simulated") {
+        return read_vehicle_motion(o.vehicle_motion);
+    }
+    std::map<std::int64_t, VehicleMotion> rows = sequence.simulated_vehicle_motion();
+    if (rows.empty()) {
+        throw InputError("--vehicle-motion simulated: only the layout world has simulated sensors");
+    }
+    return rows;
+}
+
 SequenceStereoSource::Settings stereo_settings(const ReplayOptions& o, const Range& range) {
     SequenceStereoSource::Settings s;
     s.first = range.first;
@@ -113,6 +125,9 @@ public:
             ego_.emplace(*drive.sequence, read_given_poses(options.drive), drive.cameras.calibration.T_v_c,
                          drive.range.first, drive.range.last, options.drive.ego.string());
         }
+        if (!options.vehicle_motion.empty()) {
+            motion_.emplace(vehicle_motion_rows(options, *drive.sequence));
+        }
         if (options.simulated_features) {
             simulator_.emplace(*drive.sequence, read_given_poses(options.drive), drive.range.first, drive.range.last,
                                options.feature_noise_px);
@@ -134,6 +149,7 @@ public:
         CyclePorts ports;
         ports.stereo = &stereo_;
         ports.detections = options.detections == "none" ? nullptr : &detections_;
+        ports.motion = motion_ ? &*motion_ : nullptr;
         ports.ego = ego_ ? &*ego_ : nullptr;
         ports.features = simulator_ ? &*simulator_ : nullptr;
         ports.can = &can_;
@@ -173,6 +189,9 @@ public:
                          {"tracks_dropped", h.tracks_dropped},
                          {"features_rejected", h.features_rejected},
                          {"solver_failures", h.solver_failures}};
+        if (motion_) {
+            out.emplace_back("vehicle_motions", motion_->handed_over());
+        }
         for (const auto& count : can_.counts(cycle_->counters())) {
             out.push_back(count);
         }
@@ -227,6 +246,7 @@ private:
     CanOutput can_;
     SequenceStereoSource stereo_;
     DelayedDetectionSource detections_;
+    std::optional<VehicleMotionRows> motion_;
     std::optional<GivenPoseSource> ego_;
     std::optional<FeatureSimulator> simulator_;
     std::optional<PictureWriter> pictures_;

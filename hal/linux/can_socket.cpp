@@ -90,10 +90,11 @@ int CanSocket::control(unsigned long request, ifreq& request_data) noexcept {
 }
 
 CanOpen CanSocket::open_now() noexcept {
-    fd_ = calls_.open_can();
-    if (fd_ < 0) {
-        return open_result(fd_);
+    const int opened = calls_.open_can();
+    if (opened < 0) {
+        return open_result(opened);
     }
+    fd_ = opened;
     ifreq request{};
     sockaddr_can address{};
     CanOpen result = CanOpen::kOk;

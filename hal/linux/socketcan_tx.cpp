@@ -5,34 +5,28 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstddef>
 
 namespace semtrack::hal {
 
 namespace {
 
-constexpr int kNews = 6;           // error frames taken before a list
-constexpr int kInterruptions = 3;  // EINTR in a row
-constexpr int kIdleTries = 3;      // tries of service() that move nothing
-constexpr int kFirstNap_ms = 2;    // five FD frames at 500k/2M
-constexpr int kNapGrowth = 4;
+constexpr int kNews = 6;         // error frames taken before a list
+constexpr int kIdleTries = 2;    // tries of service() that move nothing
+constexpr int kFirstNap_ms = 3;  // seven FD frames at 500k/2M
+constexpr int kNapGrowth = 8;
 constexpr int kLeastSendBuffer = 2048;  // below the kernel's own least: about six frames of either format
 
-can_frame classic_frame(const CanFrame& in) {
-    can_frame out{};
-    out.can_id = in.id | (in.extended ? CAN_EFF_FLAG : 0U);
-    out.len = in.length;
-    std::copy_n(in.data.begin(), in.length, out.data);
-    return out;
-}
-
-canfd_frame fd_frame(const CanFrame& in) {
+/// Both formats start alike; the size tells the kernel which one it is.
+canfd_frame kernel_frame(const CanFrame& in) {
     canfd_frame out{};
     out.can_id = in.id | (in.extended ? CAN_EFF_FLAG : 0U);
     out.len = in.length;
-    out.flags = CANFD_BRS;
+    out.flags = in.fd ? CANFD_BRS : 0U;
     std::copy_n(in.data.begin(), in.length, out.data);
     return out;
 }
+static_assert(offsetof(canfd_frame, data) == offsetof(can_frame, data) && CAN_MTU < CANFD_MTU);
 
 bool interface_is_gone(int error) {
     return error == -ENODEV || error == -ENXIO || error == -EBADF;
@@ -168,14 +162,9 @@ bool SocketCanTx::advance() noexcept {
 }
 
 SocketCanTx::Written SocketCanTx::write(const CanFrame& frame) noexcept {
-    const canfd_frame fd = fd_frame(frame);
-    const can_frame classic = classic_frame(frame);
-    const void* const data = frame.fd ? static_cast<const void*>(&fd) : &classic;
-    const std::size_t size = frame.fd ? sizeof fd : sizeof classic;
-    int written = -EINTR;
-    for (int k = 0; k < kInterruptions && written == -EINTR; ++k) {
-        written = calls_.write(socket_.fd(), data, size);
-    }
+    const canfd_frame data = kernel_frame(frame);
+    const std::size_t size = frame.fd ? CANFD_MTU : CAN_MTU;
+    const int written = calls_.write(socket_.fd(), &data, size);
     if (written == static_cast<int>(size)) {
         ++counters_.frames_sent;
         down_ = false;

@@ -51,7 +51,7 @@ public:
     [[nodiscard]] Result send(const CanFrame& frame, std::int64_t time_us) noexcept override;
     [[nodiscard]] CanState state() const noexcept override;
     [[nodiscard]] std::uint32_t lists_lost() const noexcept override { return lists_lost_; }
-    /// Sends what is left of the list, waiting at most timeout_ms in all; gives up when three tries in a row move
+    /// Sends what is left of the list, waiting at most timeout_ms in all; gives up when two tries in a row move
     /// nothing. True: nothing is left. To be called between cycles, when the camera leaves time, else lists longer
     /// than the kernel takes at once go out a camera's period late.
     bool service(int timeout_ms) noexcept;

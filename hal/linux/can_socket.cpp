@@ -52,6 +52,7 @@ CanOpen CanSocket::open(const char* interface, const Options& options) noexcept 
     close();
     name_ = {};
     options_ = options;
+    missed_ = false;
     for (std::size_t i = 0; interface[i] != '\0'; ++i) {
         if (i + 1 >= name_.size()) {
             name_ = {};
@@ -63,6 +64,17 @@ CanOpen CanSocket::open(const char* interface, const Options& options) noexcept 
 }
 
 CanOpen CanSocket::reopen() noexcept {
+    const std::int64_t now_us = calls_.monotonic_us();
+    if (missed_ && now_us - missed_us_ < kLookPause_us) {
+        return CanOpen::kNoInterface;
+    }
+    const CanOpen result = look_and_open();
+    missed_ = result != CanOpen::kOk;
+    missed_us_ = now_us;
+    return result;
+}
+
+CanOpen CanSocket::look_and_open() noexcept {
     ifreq request{};
     if (fd_ >= 0) {
         const int found = control(SIOCGIFINDEX, request);

@@ -23,6 +23,7 @@ enum class CanOpen : std::uint8_t {
 
 class CanSocket {
 public:
+    static constexpr std::int64_t kLookPause_us = 500000;
     struct Options {
         bool fd{true};         ///< CAN FD frames as well
         bool receives{false};  ///< `filter` is set; false: no data frames come in
@@ -38,7 +39,8 @@ public:
 
     /// At most nine system calls. The interface may be down. An open socket is closed first.
     [[nodiscard]] CanOpen open(const char* interface, const Options& options) noexcept;
-    /// As before, when the interface is there (one call when it is not).
+    /// As before, when the interface is there (one call when it is not). It is looked for twice a second at most: for a
+    /// process with CAP_NET_ADMIN the kernel runs modprobe at each look at a name that it does not know.
     [[nodiscard]] CanOpen reopen() noexcept;
     void close() noexcept;
     [[nodiscard]] int fd() const { return fd_; }
@@ -48,6 +50,7 @@ public:
 
 private:
     [[nodiscard]] int control(unsigned long request, ifreq& request_data) noexcept;
+    [[nodiscard]] CanOpen look_and_open() noexcept;
     [[nodiscard]] CanOpen open_now() noexcept;
     [[nodiscard]] bool configure() noexcept;
 
@@ -55,6 +58,8 @@ private:
     std::array<char, IFNAMSIZ> name_{};
     Options options_{};
     int fd_{-1};
+    bool missed_{false};  // the last look found nothing
+    std::int64_t missed_us_{0};
 };
 
 }  // namespace semtrack::hal

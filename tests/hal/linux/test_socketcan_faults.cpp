@@ -169,8 +169,10 @@ TEST(SocketCanFaults, AnInterfaceThatVanishedIsFoundAgainUnderAnotherIndex) {
         EXPECT_EQ(offer(tx, list), Result::kBusOff);
         EXPECT_LE(kernel.calls - calls, 2);
         EXPECT_EQ(tx.state(), CanState::kDown);
+        kernel.now_us += kPeriod_us;
     }
     kernel.come_back(12);
+    kernel.now_us += CanSocket::kLookPause_us;
     EXPECT_EQ(offer(tx, 12), Result::kSent);
     EXPECT_EQ(frames_of_lists(kernel).at(12), kListFrames);
     EXPECT_EQ(tx.counters().reopened, 1U);

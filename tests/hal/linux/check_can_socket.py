@@ -31,7 +31,7 @@ def replay(rig, out, plan="", interface="can0", more=(), env=None, preload=True)
     env = {**os.environ, "PLAYED_CAN_LOG": str(out) + ".calls", "PLAYED_CAN_PLAN": plan, **(env or {})}
     if preload:
         env["LD_PRELOAD"] = LIBRARY
-    return rig.replay(rig, out, "--can", interface, "--no-progress", *more, env=env)
+    return rig.replay(out, "--can", interface, "--no-progress", *more, env=env)
 
 
 def logged_lists(out):

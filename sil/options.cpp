@@ -27,7 +27,6 @@ struct Words {
     std::string ego{"estimate"};
     std::string features{"images"};
     std::string can_dialect{"fd"};
-    std::string can_interface;
     double camera_height_m{1.65};
     bool no_progress{false};
 };
@@ -66,8 +65,14 @@ void add_replay(CLI::App& app, ReplayOptions& o, Words& w) {
     app.add_option("--features", w.features)->check(CLI::IsMember({"images", "simulated"}));
     app.add_option("--feature-noise", o.feature_noise_px, "px, of simulated features (0.5)")
         ->check(CLI::Range(0.01, 10.0));
+    app.add_option("--vehicle-motion", o.vehicle_motion, "FILE or simulated: the vehicle's own speed and yaw rate");
     app.add_option("--can-dialect", w.can_dialect)->check(CLI::IsMember({"fd", "classic"}));
-    app.add_option("--can", w.can_interface, "SocketCAN interface to send on");
+    CLI::Option* const can = app.add_option("--can", o.can_interface, "SocketCAN interface to send on");
+    can->each([](const std::string& name) {
+        if (name.empty()) {
+            throw CLI::ValidationError("--can", "an interface's name is empty");
+        }
+    });
     app.add_flag("--realtime", o.realtime, "at the drive's own pace");
     app.add_flag("--pictures", o.pictures, "write pictures");
     app.add_flag("--points", o.points, "write points.csv");
@@ -144,15 +149,7 @@ void add_convert(CLI::App& app, ConvertCommand& o, bool& no_viewpoint) {
     app.add_option("--out", o.out, "detection file to write")->required();
 }
 
-/// What the contract knows and this program does not have.
-void refuse_what_is_not_built(const Words& w) {
-    if (!w.can_interface.empty()) {
-        throw InputError("--can " + w.can_interface + ": not available yet");
-    }
-}
-
 void finish_replay(const Words& w, ReplayOptions& o) {
-    refuse_what_is_not_built(w);
     o.drive.images = w.images == "files";
     if (w.ego != "estimate") {
         o.drive.ego = w.ego;

@@ -38,7 +38,9 @@ struct ReplayOptions {
     double feature_noise_px{0.5};  ///< of simulated features
     Config config{};
     std::filesystem::path mount;
+    std::string vehicle_motion;  ///< none (empty), simulated or a file
     CanDialect dialect{CanDialect::kFd};
+    std::string can_interface;  ///< empty: can.log only
     bool realtime{false};
     bool pictures{false};
     bool points{false};

@@ -5,13 +5,14 @@
 #include <memory>
 #include <optional>
 
-#include "hal/loopback/can_log.hpp"
 #ifdef SEMTRACK_HAS_OPENCV
 #include "hal/opencv/opencv_extractor.hpp"
 #endif
 #include "semtrack/cycle.hpp"
+#include "sil/can_output.hpp"
 #include "sil/evaluation.hpp"
 #include "sil/kitti/detection_file.hpp"
+#include "sil/kitti/vehicle_motion_file.hpp"
 #include "sil/open_drive.hpp"
 #include "sil/report/picture_writer.hpp"
 #include "sil/report/progress.hpp"
@@ -24,6 +25,10 @@
 namespace semtrack::sil {
 
 namespace {
+
+// What the bus gets for a list before the next frame, and for the last one: classic CAN takes 29 ms for 16 objects.
+constexpr int kBetweenCycles_ms = 60;
+constexpr int kLastList_ms = 150;
 
 volatile std::sig_atomic_t g_stop = 0;
 
@@ -81,6 +86,17 @@ Drive open(const ReplayOptions& o) {
     return d;
 }
 
+std::map<std::int64_t, VehicleMotion> vehicle_motion_rows(const ReplayOptions& o, const Sequence& sequence) {
+    if (o.vehicle_motion != "simulated") {
+        return read_vehicle_motion(o.vehicle_motion);
+    }
+    std::map<std::int64_t, VehicleMotion> rows = sequence.simulated_vehicle_motion();
+    if (rows.empty()) {
+        throw InputError("--vehicle-motion simulated: only the layout world has simulated sensors");
+    }
+    return rows;
+}
+
 SequenceStereoSource::Settings stereo_settings(const ReplayOptions& o, const Range& range) {
     SequenceStereoSource::Settings s;
     s.first = range.first;
@@ -97,7 +113,7 @@ public:
         : options_(options),
           drive_(drive),
           writers_(dir, drive.cameras, options.dialect, options.points),
-          can_log_(writers_.can_log()),
+          can_(writers_.can_log(), options.can_interface, options.dialect),
           stereo_(*drive.sequence, stereo_settings(options, drive.range), timer_),
           detections_(*drive.sequence, drive.detections.by_frame, drive.range.first, drive.range.last,
                       options.detection_delay),
@@ -108,6 +124,9 @@ public:
         if (!options.drive.ego.empty()) {
             ego_.emplace(*drive.sequence, read_given_poses(options.drive), drive.cameras.calibration.T_v_c,
                          drive.range.first, drive.range.last, options.drive.ego.string());
+        }
+        if (!options.vehicle_motion.empty()) {
+            motion_.emplace(vehicle_motion_rows(options, *drive.sequence));
         }
         if (options.simulated_features) {
             simulator_.emplace(*drive.sequence, read_given_poses(options.drive), drive.range.first, drive.range.last,
@@ -130,9 +149,10 @@ public:
         CyclePorts ports;
         ports.stereo = &stereo_;
         ports.detections = options.detections == "none" ? nullptr : &detections_;
+        ports.motion = motion_ ? &*motion_ : nullptr;
         ports.ego = ego_ ? &*ego_ : nullptr;
         ports.features = simulator_ ? &*simulator_ : nullptr;
-        ports.can = &can_log_;
+        ports.can = &can_;
         ports.observer = &timer_;
         CanConfig can;
         can.dialect = options.dialect;
@@ -148,7 +168,8 @@ public:
         if (pictures_) {
             pictures_->finish();
         }
-        if (can_log_.failed()) {
+        can_.service(kLastList_ms);
+        if (can_.failed()) {
             throw std::runtime_error("can.log: cannot be written");
         }
         writers_.close();
@@ -156,29 +177,35 @@ public:
 
     [[nodiscard]] RunCounts counts() const {
         const Health& h = output_->health;
-        const CycleCounters& c = cycle_->counters();
         const bool images = options_.drive.images;
-        return {{"frames_dropped", images ? h.frames_dropped : 0},
-                {"frames_without_right", images ? h.frames_without_right : 0},
-                {"frames_road_not_plane", frames_road_not_plane_},
-                {"detection_lists", detections_.lists_handed_over()},
-                {"detection_lists_late", h.lists_late},
-                {"detection_lists_too_late", h.lists_too_late},
-                {"detections_dropped_reading", drive_.detections.dropped},
-                {"detections_of_no_frame", drive_.detections.bad_frames},
-                {"detections_dropped", h.detections_dropped},
-                {"tracks_dropped", h.tracks_dropped},
-                {"features_rejected", h.features_rejected},
-                {"solver_failures", h.solver_failures},
-                {"can_frames", c.frames_sent},
-                {"can_lists", c.lists_sent},
-                {"can_lists_dropped", c.lists_dropped}};
+        RunCounts out = {{"frames_dropped", images ? h.frames_dropped : 0},
+                         {"frames_without_right", images ? h.frames_without_right : 0},
+                         {"detection_lists", detections_.lists_handed_over()},
+                         {"detection_lists_late", h.lists_late},
+                         {"detection_lists_too_late", h.lists_too_late},
+                         {"detections_dropped_reading", drive_.detections.dropped},
+                         {"detections_of_no_frame", drive_.detections.bad_frames},
+                         {"detections_dropped", h.detections_dropped},
+                         {"tracks_dropped", h.tracks_dropped},
+                         {"features_rejected", h.features_rejected},
+                         {"solver_failures", h.solver_failures}};
+        out.emplace_back("frames_road_not_plane", frames_road_not_plane_);
+        if (motion_) {
+            out.emplace_back("vehicle_motions", motion_->handed_over());
+        }
+        for (const auto& count : can_.counts(cycle_->counters())) {
+            out.push_back(count);
+        }
+        return out;
     }
     [[nodiscard]] FeatureStatistics features() const {
         return features_.statistics();
     }
     [[nodiscard]] StereoScores stereo_scores() const {
         return stereo_checks_.scores();
+    }
+    [[nodiscard]] std::string complaint() const {
+        return can_.complaint();
     }
     [[nodiscard]] const std::vector<double>& total_us() const {
         return total_us_;
@@ -202,6 +229,7 @@ private:
             case CycleResult::kRefused:
                 throw std::runtime_error(where + ": the tracker refused its input");
         }
+        can_.service(kBetweenCycles_ms);
         writers_.add(stereo_.frame(), *output_, cycle_->encoder().list_counter(), timer_.timing());
         features_.add(*output_);
         stereo_checks_.add(stereo_.frame(), *output_);
@@ -217,9 +245,10 @@ private:
     Drive& drive_;
     StageTimer timer_;
     ResultWriters writers_;
-    hal::CanLog can_log_;
+    CanOutput can_;
     SequenceStereoSource stereo_;
     DelayedDetectionSource detections_;
+    std::optional<VehicleMotionRows> motion_;
     std::optional<GivenPoseSource> ego_;
     std::optional<FeatureSimulator> simulator_;
     std::optional<PictureWriter> pictures_;
@@ -245,6 +274,7 @@ void run_replay(const ReplayOptions& options) {
     (void)std::signal(SIGTERM, stop_on_signal);
     Metrics metrics;
     std::vector<double> total_us;
+    std::string complaint;
     {
         Run run(options, drive, truth, folder.work());
         run.all_frames();
@@ -253,6 +283,7 @@ void run_replay(const ReplayOptions& options) {
         metrics.features = run.features();
         metrics.stereo = run.stereo_scores();
         total_us = run.total_us();
+        complaint = run.complaint();
     }
     write_file(folder.work() / "metrics.json", to_json(metrics));
     folder.commit();
@@ -260,6 +291,9 @@ void run_replay(const ReplayOptions& options) {
         summary_text(options.drive.layout + " " + options.drive.sequence, metrics, total_us, options.out.string())
             .c_str(),
         stdout);
+    if (!complaint.empty()) {
+        (void)std::fprintf(stderr, "semtrack-sil: %s\n", complaint.c_str());
+    }
 }
 
 }  // namespace semtrack::sil

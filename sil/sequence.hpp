@@ -75,6 +75,8 @@ public:
     [[nodiscard]] virtual const std::map<int, RigidTransform>& ego_truth() const = 0;
     /// Detections that belong to the drive: `--detections labels`. By frame; a frame without entry has no list.
     [[nodiscard]] virtual const std::map<int, std::vector<Detection>>& label_detections() const = 0;
+    /// The vehicle's own sensors, simulated, by time: `--vehicle-motion simulated`. Empty: the layout has none.
+    [[nodiscard]] virtual std::map<std::int64_t, VehicleMotion> simulated_vehicle_motion() const { return {}; }
 };
 
 }  // namespace semtrack::sil

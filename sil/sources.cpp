@@ -1,5 +1,6 @@
 #include "sil/sources.hpp"
 
+#include <iterator>
 #include <thread>
 
 #include "math/float_env.hpp"
@@ -93,6 +94,16 @@ SourceResult DelayedDetectionSource::poll(std::int64_t now_us,
         any = true;
     }
     return any ? SourceResult::kOk : SourceResult::kNone;
+}
+
+SourceResult VehicleMotionRows::poll(std::int64_t now_us, VehicleMotion& motion) noexcept {
+    const auto later = rows_.upper_bound(now_us);
+    if (later == rows_.begin() || now_us - std::prev(later)->first > kTimeout_us) {
+        return SourceResult::kNone;
+    }
+    motion = std::prev(later)->second;
+    ++handed_over_;
+    return SourceResult::kOk;
 }
 
 GivenPoseSource::GivenPoseSource(const Sequence& sequence, const std::map<int, RigidTransform>& poses,

@@ -7,6 +7,7 @@
 #include <exception>
 #include <future>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "math/pose.hpp"
@@ -22,8 +23,8 @@ public:
     struct Settings {
         int first{0};
         int last{0};
-        bool images{true};    ///< false: boxes only, every view is empty
-        bool ahead{true};     ///< false: decoded when asked for; a rendered pair takes all cores, the tracker's too
+        bool images{true};     ///< false: boxes only, every view is empty
+        bool ahead{true};      ///< false: decoded when asked for; a rendered pair takes all cores, the tracker's too
         bool realtime{false};  ///< hand over at the drive's own pace
     };
     /// timer: told when a frame is handed over.
@@ -72,6 +73,20 @@ private:
     };
     std::vector<Entry> entries_;
     std::size_t next_{0};
+    int handed_over_{0};
+};
+
+/// Rows of the vehicle's own sensors, handed over as they were at each image's time.
+class VehicleMotionRows final : public VehicleMotionSource {
+public:
+    /// A row older than this at the image's time is none, as on the bus.
+    static constexpr std::int64_t kTimeout_us = 200000;
+    explicit VehicleMotionRows(std::map<std::int64_t, VehicleMotion> rows) : rows_(std::move(rows)) {}
+    [[nodiscard]] SourceResult poll(std::int64_t now_us, VehicleMotion& motion) noexcept override;
+    [[nodiscard]] int handed_over() const { return handed_over_; }
+
+private:
+    std::map<std::int64_t, VehicleMotion> rows_;
     int handed_over_{0};
 };
 

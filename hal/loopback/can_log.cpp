@@ -44,19 +44,10 @@ struct LineBuilder {
     }
 };
 
-bool legal_length(const CanFrame& frame) {
-    const int n = frame.length;
-    return n <= 8 || (frame.fd && (n == 12 || n == 16 || n == 20 || n == 24 || n == 32 || n == 48 || n == 64));
-}
-
-bool legal_id(const CanFrame& frame) {
-    return frame.id <= (frame.extended ? 0x1FFFFFFFU : 0x7FFU);
-}
-
 }  // namespace
 
 std::size_t can_log_line(const CanFrame& frame, std::int64_t time_us, const char* interface, CanLogLine& line) {
-    if (!legal_length(frame) || !legal_id(frame)) {
+    if (!is_legal(frame)) {
         return 0;
     }
     LineBuilder b{line};

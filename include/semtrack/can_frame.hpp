@@ -15,6 +15,14 @@ struct CanFrame {
     std::array<std::uint8_t, 64> data{};
 };
 
+/// A length that the format has, and an id within 11 bits (29 when extended).
+[[nodiscard]] constexpr bool is_legal(const CanFrame& frame) {
+    const int n = frame.length;
+    const bool length =
+        n <= 8 || (frame.fd && (n == 12 || n == 16 || n == 20 || n == 24 || n == 32 || n == 48 || n == 64));
+    return length && frame.id <= (frame.extended ? 0x1FFFFFFFU : 0x7FFU);
+}
+
 }  // namespace semtrack
 
 #endif

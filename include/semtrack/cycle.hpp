@@ -37,13 +37,13 @@ enum class CycleResult : std::uint8_t {
 struct CycleCounters {
     std::uint32_t frames_sent{0};   ///< CAN frames
     std::uint32_t lists_sent{0};    ///< whole lists
-    std::uint32_t lists_dropped{0}; ///< the bus was busy or off: the rest of the list was not sent
+    std::uint32_t lists_dropped{0}; ///< the bus was busy or off: the list, or the rest of it, was not sent
 };
 
 class Cycle {
 public:
     void init(const CyclePorts& ports, const CanConfig& can);
-    /// Sets and restores the floating-point environment (round to nearest, no flush to zero).
+    /// Sets and restores the floating-point environment (round to nearest, no flush to zero). Fills Health::can_*.
     [[nodiscard]] CycleResult step(Tracker& tracker, Output& output) noexcept;
     [[nodiscard]] const CycleCounters& counters() const { return counters_; }
     [[nodiscard]] const CanEncoder& encoder() const { return encoder_; }

@@ -155,6 +155,14 @@ struct SparsePoint {
     std::array<float, 3> position_w{};
 };
 
+/// The CAN bus as the sender sees it.
+enum class CanState : std::uint8_t {
+    kActive = 0,    ///< nothing is known to be wrong
+    kErrorPassive,  ///< the controller counts many errors; frames still go out
+    kBusOff,        ///< the controller has left the bus, or has no carrier
+    kDown           ///< the interface is down or gone
+};
+
 /// Counters only grow; flags are of this frame.
 struct Health {
     std::uint32_t frames{0};
@@ -174,6 +182,8 @@ struct Health {
     bool road_not_plane{false};             ///< the road ahead leaves the plane of ground contact by more than twice
                                             ///< what is admitted (0.06 m + 0.004 distance), for three frames or more
     std::uint32_t objects_untracked{0};     ///< of this frame: detections beyond a capacity
+    std::uint32_t can_lists_dropped{0};     ///< object lists that did not get onto the bus whole, before this one
+    CanState can_state{CanState::kActive};  ///< before this frame's list; both are set by Cycle
 };
 
 struct Output {

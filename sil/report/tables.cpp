@@ -63,6 +63,9 @@ std::string health_text(const Health& health) {
     add(health.no_right_image, "no_right_image");
     add(health.no_detections, "no_detections");
     add(health.road_not_plane, "road_not_plane");
+    add(health.can_state == CanState::kErrorPassive, "can_error_passive");
+    add(health.can_state == CanState::kBusOff, "can_bus_off");
+    add(health.can_state == CanState::kDown, "can_down");
     return text.empty() ? "ok" : text;
 }
 

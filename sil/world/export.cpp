@@ -11,6 +11,8 @@ using namespace world;
 namespace {
 
 constexpr const char* kDate = "2026_01_01";
+constexpr std::int64_t kRawStart_us = 1767268800000000;  // 2026-01-01 12:00:00 UTC
+constexpr std::int64_t kTrackingFrame_us = 103600;       // as readers take them
 constexpr const char* kRawId = "2026_01_01_drive_0001";
 
 void write_images(const WorldSequence& w, const fs::path& left_dir, const fs::path& right_dir, int digits) {
@@ -47,6 +49,7 @@ void export_raw(const WorldSequence& w, const fs::path& out, ExportedDrive& driv
     write_text(sync / "frames.txt", frame_numbers(w, 10));
     write_text(sync / "times.txt", times(w));
     write_text(sync / "poses.txt", poses(w));
+    write_text(sync / "vehicle_motion.txt", vehicle_motion_rows(w, kRawStart_us, kFrame_us));
     write_text(sync / "label_02" / "0001.txt", label_rows(w));
     write_text(sync / "label_02" / "labelled_frames.txt", frame_numbers(w, 0));
 }
@@ -59,6 +62,7 @@ void export_odometry(const WorldSequence& w, const fs::path& out, ExportedDrive&
     write_text(dir / "calib.txt", projections(w, 4));
     write_text(dir / "times.txt", times(w));
     write_text(out / "poses" / (drive.id + ".txt"), poses(w));
+    write_text(out / "vehicle_motion" / (drive.id + ".txt"), vehicle_motion_rows(w, 0, kFrame_us));
 }
 
 void export_tracking(const WorldSequence& w, const fs::path& out, ExportedDrive& drive) {
@@ -71,6 +75,7 @@ void export_tracking(const WorldSequence& w, const fs::path& out, ExportedDrive&
     write_text(dir / "label_02" / file, label_rows(w));
     write_text(dir / "labels_viewpoints" / file, viewpoint_rows(w));
     write_text(dir / "ego_pose" / file, poses(w));
+    write_text(dir / "vehicle_motion" / file, vehicle_motion_rows(w, 0, kTrackingFrame_us));
 }
 
 }  // namespace

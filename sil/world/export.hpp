@@ -18,6 +18,7 @@ struct ExportedDrive {
 };
 
 /// Creates OUT and what is below it; files of an earlier export with the same names are replaced.
+/// The ego vehicle's simulated sensors are beside the poses (vehicle_motion.txt; vehicle_motion/ID.txt).
 ///   raw       OUT/2026_01_01/{calib_cam_to_cam.txt, calib_velo_to_cam.txt, calib_imu_to_velo.txt, ID_sync/...}
 ///   odometry  OUT/sequences/00/{image_0, image_1, calib.txt, times.txt}, OUT/poses/00.txt
 ///   tracking  OUT/training/{image_02, image_03, calib, label_02, ego_pose, labels_viewpoints, detections}

@@ -153,6 +153,18 @@ std::string times(const WorldSequence& w) {
     return out.str();
 }
 
+std::string vehicle_motion_rows(const WorldSequence& w, std::int64_t start_us, std::int64_t period_us) {
+    Text out;
+    std::int64_t time_us = start_us;
+    for (const auto& [world_us, motion] : w.simulated_vehicle_motion()) {
+        out << std::to_string(time_us) << " ";
+        out.number(motion.speed, 4, true) << " ";
+        out.number(motion.yaw_rate, 5, true) << "\n";
+        time_us += period_us;
+    }
+    return out.str();
+}
+
 std::string frame_numbers(const WorldSequence& w, int digits) {
     Text out;
     for (int frame = w.first_frame(); frame <= w.last_frame(); ++frame) {

@@ -21,6 +21,8 @@ void write_text(const std::filesystem::path& path, const std::string& text);
 [[nodiscard]] std::string tracking_calibration(const WorldSequence& w);  ///< P0..P3, R0_rect, Tr_velo_cam, Tr_imu_velo
 [[nodiscard]] std::string time_stamps(const WorldSequence& w);           ///< from 2026-01-01 12:00:00
 [[nodiscard]] std::string times(const WorldSequence& w);                 ///< seconds
+/// `time_us speed yaw_rate` of every frame; the first frame is at start_us, the next ones period_us apart.
+[[nodiscard]] std::string vehicle_motion_rows(const WorldSequence& w, std::int64_t start_us, std::int64_t period_us);
 [[nodiscard]] std::string frame_numbers(const WorldSequence& w, int digits);
 [[nodiscard]] std::string poses(const WorldSequence& w);
 /// KITTI tracking labels, 17 columns; truncated as a fraction.

@@ -16,7 +16,7 @@ struct Entry {
     Scenario (*make)();
 };
 
-constexpr std::array<Entry, 29> kScenarios{{
+constexpr std::array<Entry, 30> kScenarios{{
     {"street", make_street_scenario},
     {"empty", make_empty_scenario},
     {"traffic", make_traffic_scenario},
@@ -36,6 +36,7 @@ constexpr std::array<Entry, 29> kScenarios{{
     {"night", make_night_scenario},
     {"exposure", make_exposure_scenario},
     {"dropped", make_dropped_scenario},
+    {"blackout", make_blackout_scenario},
     {"blind_right", make_blind_right_scenario},
     {"misaligned", make_misaligned_scenario},
     {"detector_5hz", make_detector_5hz_scenario},

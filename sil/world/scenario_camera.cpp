@@ -29,6 +29,12 @@ Scenario make_dropped_scenario() {
     return s;
 }
 
+Scenario make_blackout_scenario() {
+    Scenario s = make_braking_scenario();
+    s.imaging.dropped = {15, 16, 17, 18, 19};
+    return s;
+}
+
 Scenario make_blind_right_scenario() {
     Scenario s = make_short_street_scenario();
     s.imaging.blind_right_from = 20;

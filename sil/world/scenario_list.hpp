@@ -66,6 +66,8 @@ namespace semtrack::sil::world {
 /// Both images at half the light from one frame on, and back.
 [[nodiscard]] Scenario make_exposure_scenario();
 [[nodiscard]] Scenario make_dropped_scenario();
+/// The emergency braking without images for half a second while the car brakes.
+[[nodiscard]] Scenario make_blackout_scenario();
 /// The right camera sees nothing for 0.5 s.
 [[nodiscard]] Scenario make_blind_right_scenario();
 /// The right image lies 1 px lower than calibrated.

@@ -10,6 +10,7 @@
 #include "sil/sequence.hpp"
 #include "sil/world/detector.hpp"
 #include "sil/world/truth.hpp"
+#include "sil/world/vehicle_motion.hpp"
 
 namespace semtrack::sil {
 
@@ -38,6 +39,10 @@ public:
     [[nodiscard]] const std::vector<int>& labelled_frames() const override { return frames_; }
     [[nodiscard]] const std::map<int, RigidTransform>& ego_truth() const override { return ego_; }
     [[nodiscard]] const std::map<int, std::vector<Detection>>& label_detections() const override;
+
+    [[nodiscard]] std::map<std::int64_t, VehicleMotion> simulated_vehicle_motion() const override {
+        return world::vehicle_motion(scene_);
+    }
 
     /// As load, for const sequences. Throws InputError for a frame that is not there.
     void render(int frame, GreyImage& left, GreyImage& right) const;

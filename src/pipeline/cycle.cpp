@@ -63,6 +63,8 @@ CycleResult Cycle::step(Tracker& tracker, Output& output) noexcept {
         return CycleResult::kRefused;
     }
     if (ports_.can != nullptr) {
+        output.health.can_state = ports_.can->state();
+        output.health.can_lists_dropped = counters_.lists_dropped + ports_.can->lists_lost();
         publish(output, frame.time_us);
     }
     return CycleResult::kProcessed;
@@ -79,6 +81,10 @@ void Cycle::publish(const Output& output, std::int64_t time_us) {
         ports_.observer->end(Stage::kEncode);
     }
     if (encoded != Status::kOk && encoded != Status::kCapacity) {
+        ++counters_.lists_dropped;
+        return;
+    }
+    if (ports_.can->begin_list(frames_.size(), time_us) != CanTx::Result::kSent) {
         ++counters_.lists_dropped;
         return;
     }

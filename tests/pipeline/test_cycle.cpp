@@ -43,6 +43,12 @@ public:
 
 class FakeBus final : public CanTx {
 public:
+    [[nodiscard]] Result begin_list(int count, std::int64_t) noexcept override {
+        announced.push_back(count);
+        return begins;
+    }
+    [[nodiscard]] CanState state() const noexcept override { return bus; }
+    [[nodiscard]] std::uint32_t lists_lost() const noexcept override { return lost; }
     [[nodiscard]] Result send(const CanFrame& frame, std::int64_t time_us) noexcept override {
         if (static_cast<int>(frames.size()) == room) {
             return Result::kBusy;
@@ -54,6 +60,10 @@ public:
     std::vector<CanFrame> frames;
     std::vector<std::int64_t> times_us;
     int room{-1};  // frames until it is busy
+    std::vector<int> announced;
+    Result begins{Result::kSent};
+    CanState bus{CanState::kActive};
+    std::uint32_t lost{0};
 };
 
 class LateClock final : public Clock {
@@ -147,6 +157,32 @@ TEST_F(CycleTest, BusyBusDropsTheRestOfTheListAndCountsItOnce) {
     bus_.room = -1;
     EXPECT_EQ(step(), CycleResult::kProcessed);
     EXPECT_EQ(cycle_->counters().lists_sent, 1U);
+}
+
+TEST_F(CycleTest, AListThatMayNotBeginSendsNoFrameAndCounts) {
+    start(CanDialect::kClassic);
+    bus_.begins = CanTx::Result::kBusOff;
+    EXPECT_EQ(step(), CycleResult::kProcessed);
+    EXPECT_TRUE(bus_.frames.empty());
+    EXPECT_EQ(cycle_->counters().lists_dropped, 1U);
+    bus_.begins = CanTx::Result::kSent;
+    EXPECT_EQ(step(), CycleResult::kProcessed);
+    EXPECT_EQ(static_cast<int>(bus_.frames.size()), bus_.announced.back()) << "as many frames as were announced";
+    EXPECT_EQ(cycle_->counters().lists_sent, 1U);
+}
+
+TEST_F(CycleTest, HealthSaysHowTheBusIsAndWhatItLost) {
+    start();
+    EXPECT_EQ(step(), CycleResult::kProcessed);
+    EXPECT_EQ(output_->health.can_state, CanState::kActive);
+    EXPECT_EQ(output_->health.can_lists_dropped, 0U);
+    bus_.begins = CanTx::Result::kBusOff;
+    EXPECT_EQ(step(), CycleResult::kProcessed);
+    bus_.bus = CanState::kBusOff;
+    bus_.lost = 3;
+    EXPECT_EQ(step(), CycleResult::kProcessed);
+    EXPECT_EQ(output_->health.can_state, CanState::kBusOff);
+    EXPECT_EQ(output_->health.can_lists_dropped, 4U) << "one refused before this one, three lost by the bus";
 }
 
 TEST_F(CycleTest, AgeOfTheImageIsTheClocksTimeMinusTheImages) {

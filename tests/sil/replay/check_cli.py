@@ -174,6 +174,8 @@ def bad_usage(tmp):
          "4000x4000", names=("--image-size",))
     case("camera below the road", "--camera-height", "-1", names=("--camera-height",))
     case("camera height that is no number", "--camera-height", "nan", names=("--camera-height",))
+    case("simulated sensors of a recorded drive", "--vehicle-motion", "simulated", names=("--vehicle-motion",))
+    case("a motion file that is not there", "--vehicle-motion", tmp / "no_motion.txt", names=("no_motion.txt",))
     case("unknown option", "--speed", "3")
     case("camera 1 of the detections", "--detections-camera", "1", names=("--detections-camera",))
     refused(run(), "no command")
@@ -238,6 +240,12 @@ def results(tmp):
     check(drive.replay(out).returncode == 0, "second run")
     check(sorted(p.name for p in out.iterdir()) == sorted(FILES + ["notes.md"]),
           f"old results stayed: {sorted(p.name for p in out.iterdir())}")
+
+    # The vehicle's own sensors.
+    done = drive.replay(tmp / "sensors", "--vehicle-motion", drive.sync / "vehicle_motion.txt")
+    check(done.returncode == 0, f"vehicle motion: {done.stderr}")
+    metrics = json.loads((tmp / "sensors" / "metrics.json").read_text())
+    check(metrics["run"]["vehicle_motions"] == FRAMES and metrics["ate_rmse_m"] < 0.2, "every image had its motion")
 
     # A frame that was dropped in the middle is predicted.
     gap = Drive(base, tmp / "gap")

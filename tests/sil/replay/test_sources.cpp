@@ -202,5 +202,22 @@ TEST(EgoPoseSource, AFrameWithoutPoseIsRefusedByName) {
     }
 }
 
+TEST(VehicleMotionRows, HandOverTheNewestRowThatIsNotTooOld) {
+    std::map<std::int64_t, VehicleMotion> rows;
+    rows[100000].speed = 1.0;
+    rows[200000].speed = 2.0;
+    VehicleMotionRows source(rows);
+    VehicleMotion motion;
+    EXPECT_EQ(source.poll(99999, motion), SourceResult::kNone);
+    EXPECT_EQ(source.poll(100000, motion), SourceResult::kOk);
+    EXPECT_EQ(motion.speed, 1.0);
+    EXPECT_EQ(source.poll(199999, motion), SourceResult::kOk);
+    EXPECT_EQ(motion.speed, 1.0);
+    EXPECT_EQ(source.poll(400000, motion), SourceResult::kOk);
+    EXPECT_EQ(motion.speed, 2.0);
+    EXPECT_EQ(source.poll(400001, motion), SourceResult::kNone);
+    EXPECT_EQ(source.handed_over(), 3);
+}
+
 }  // namespace
 }  // namespace semtrack::sil

@@ -79,6 +79,8 @@ TEST_F(WorldExport, RawHasImagesStampsCalibrationLabelsAndPoses) {
         EXPECT_EQ(rows(sync / file), 2U) << file;
     }
     EXPECT_EQ(columns(sync / "poses.txt"), 12U);
+    EXPECT_EQ(rows(sync / "vehicle_motion.txt"), 2U);
+    EXPECT_EQ(columns(sync / "vehicle_motion.txt"), 3U);
     EXPECT_EQ(rows(sync / "calib.txt"), 4U);
     EXPECT_EQ(rows(sync / "label_02" / "0001.txt"), world_.labels().size());
     EXPECT_EQ(columns(sync / "label_02" / "0001.txt"), 17U);

@@ -21,7 +21,7 @@ struct Bytes {
     std::uint64_t truth;   ///< poses, labels, viewpoints and detections of three frames, as text
 };
 
-constexpr std::array<Bytes, 29> kBytes{{
+constexpr std::array<Bytes, 30> kBytes{{
     {"street", 0x3ea63d12355f70a3ULL, 0x7bf5dc230c17c347ULL},
     {"empty", 0x4d25c6449778fc8eULL, 0x1ba1fccfb56776edULL},
     {"traffic", 0xdbe0dd5b2e3e678dULL, 0x3788ccb2ba00f44eULL},
@@ -41,6 +41,7 @@ constexpr std::array<Bytes, 29> kBytes{{
     {"night", 0xef69b37f28d335cfULL, 0x7bf5dc230c17c347ULL},
     {"exposure", 0x3ea63d12355f70a3ULL, 0x7bf5dc230c17c347ULL},
     {"dropped", 0x3ea63d12355f70a3ULL, 0x7bf5dc230c17c347ULL},
+    {"blackout", 0x74fd8073d6617b81ULL, 0x33ee5dea002b05ceULL},
     {"blind_right", 0x3ea63d12355f70a3ULL, 0x7bf5dc230c17c347ULL},
     {"misaligned", 0x7ea283f50e036b44ULL, 0x7bf5dc230c17c347ULL},
     {"detector_5hz", 0x3ea63d12355f70a3ULL, 0xeb32abb8e7f3cdb1ULL},

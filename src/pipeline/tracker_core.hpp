@@ -37,6 +37,8 @@ public:
     Status process(const Input& input, Output& output);
 
 private:
+    friend class StageProbe;  // of the SIL: reads what a stage left, to compare two targets stage by stage
+
     // tracker_core.cpp
     [[nodiscard]] bool acceptable(const Input& input) const;
     [[nodiscard]] Pose predict_ego(const Input& input) const;

@@ -53,7 +53,9 @@ void print_stack(std::uint32_t bytes) {
 
 }  // namespace
 
-int main() {
+extern "C" void board_main();  // called by the start-up code
+
+void board_main() {
     paint_stack();
     const semtrack::board::SceneResult result =
         semtrack::board::run_scene(board_scene_begin, static_cast<std::size_t>(board_scene_end - board_scene_begin));
@@ -61,5 +63,5 @@ int main() {
     semtrack::board::format_result(result, line);
     semtrack::board::print(line);
     print_stack(stack_used());
-    return result.complete ? 0 : 1;
+    semtrack::board::leave(result.complete ? 0 : 1);
 }

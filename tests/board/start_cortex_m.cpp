@@ -1,4 +1,4 @@
-// Start-up of a Cortex-M without operating system: vectors, floating-point unit, data, bss, constructors, main.
+// Start-up of a Cortex-M without operating system: vectors, floating-point unit, data, bss, constructors, board_main().
 // A heap is not there: who asks for it ends the program.
 #include <cstdint>
 
@@ -17,7 +17,7 @@ using Constructor = void (*)();
 extern const Constructor board_constructors_begin[];
 extern const Constructor board_constructors_end[];
 
-int main();
+void board_main();
 
 void* _sbrk(int) {
     semtrack::board::print("the heap was asked for\n");
@@ -51,7 +51,8 @@ __attribute__((used, noreturn)) void board_reset() {
     for (const Constructor* c = board_constructors_begin; c < board_constructors_end; ++c) {
         (*c)();
     }
-    semtrack::board::leave(main());
+    board_main();
+    semtrack::board::leave(95);  // it never returns
 }
 
 using Vector = void (*)();

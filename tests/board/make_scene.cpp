@@ -1,13 +1,11 @@
-// The host's side of the board test: semtrack-board-scene make FILE renders the scene, run FILE processes it.
+// usage: semtrack-board-scene FILE    renders the board's scene into FILE.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
-#include "board/run_scene.hpp"
 #include "board/scene.hpp"
 #include "sil/world/world_sequence.hpp"
 
@@ -111,27 +109,12 @@ int make(const std::string& file) {
     return out.flush() ? 0 : 1;
 }
 
-int run(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    const std::vector<char> bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    const board::SceneResult result =
-        board::run_scene(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
-    char line[board::kLineBytes];
-    board::format_result(result, line);
-    (void)std::fputs(line, stdout);
-    return result.complete ? 0 : 1;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    const std::string what = argc == 3 ? argv[1] : "";
-    if (what == "make") {
-        return make(argv[2]);
+    if (argc != 2) {
+        (void)std::fputs("usage: semtrack-board-scene FILE\n", stderr);
+        return 2;
     }
-    if (what == "run") {
-        return run(argv[2]);
-    }
-    (void)std::fputs("usage: semtrack-board-scene make|run FILE\n", stderr);
-    return 2;
+    return make(argv[1]);
 }

@@ -13,16 +13,32 @@ finish() {
     exit "$1"
 }
 
+# missing_packages LIST
 missing_packages() {
-    for package in $packages; do
+    local package
+    for package in $1; do
         dpkg-query -W -f '${Status}\n' "$package" 2>/dev/null | grep -q 'install ok installed' || printf '%s ' "$package"
     done
+}
+
+# install_packages LIST: as root; shows apt's last lines when it fails.
+install_packages() {
+    step "set-up: installing $1"
+    local log
+    log=$(mktemp)
+    if ! { apt-get update && DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $1; } \
+        >"$log" 2>&1; then
+        tail -n 20 "$log"
+        rm -f "$log"
+        return 1
+    fi
+    rm -f "$log"
 }
 
 # Installs what is missing as root; otherwise says exactly what to install and stops.
 set_up() {
     local missing
-    missing=$(missing_packages)
+    missing=$(missing_packages "$packages")
     if [ -z "$missing" ]; then
         step "set-up: all packages are there"
         return 0
@@ -32,15 +48,7 @@ set_up() {
         echo "    sudo apt-get install --no-install-recommends $missing"
         finish 1 "FAILED: packages are missing"
     fi
-    step "set-up: installing $missing"
-    local log
-    log=$(mktemp)
-    if ! { apt-get update && DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $missing; } \
-        >"$log" 2>&1; then
-        tail -n 20 "$log"
-        finish 1 "FAILED: apt-get could not install the packages above"
-    fi
-    rm -f "$log"
+    install_packages "$missing" || finish 1 "FAILED: apt-get could not install the packages above"
 }
 
 # build PRESET [TARGET...]

@@ -76,6 +76,7 @@ void add_replay(CLI::App& app, ReplayOptions& o, Words& w) {
     app.add_flag("--realtime", o.realtime, "at the drive's own pace");
     app.add_flag("--pictures", o.pictures, "write pictures");
     app.add_flag("--points", o.points, "write points.csv");
+    app.add_flag("--stages", o.stages, "write stages.csv: a hash of what each stage left");
     app.add_flag("--no-progress", w.no_progress);
     app.add_option("--out", o.out, "folder for the results")->required();
 }

@@ -44,6 +44,7 @@ struct ReplayOptions {
     bool realtime{false};
     bool pictures{false};
     bool points{false};
+    bool stages{false};
     bool progress{true};
     std::filesystem::path out;
 };

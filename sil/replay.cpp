@@ -21,6 +21,7 @@
 #include "sil/result_folder.hpp"
 #include "sil/simulate/feature_simulator.hpp"
 #include "sil/sources.hpp"
+#include "sil/stage_trace.hpp"
 
 namespace semtrack::sil {
 
@@ -114,6 +115,7 @@ public:
           drive_(drive),
           writers_(dir, drive.cameras, options.dialect, options.points),
           can_(writers_.can_log(), options.can_interface, options.dialect),
+          trace_(timer_),
           stereo_(*drive.sequence, stereo_settings(options, drive.range), timer_),
           detections_(*drive.sequence, drive.detections.by_frame, drive.range.first, drive.range.last,
                       options.detection_delay),
@@ -143,7 +145,12 @@ public:
 #else
         FeatureExtractor* const extractor = nullptr;
 #endif
-        if (tracker_->init(options.config, drive.cameras.calibration, extractor, &timer_) != Status::kOk) {
+        if (options.stages) {
+            trace_.watch(*tracker_);
+            stages_.emplace(dir / "stages.csv");
+            stages_->write(StageTrace::header());
+        }
+        if (tracker_->init(options.config, drive.cameras.calibration, extractor, &trace_) != Status::kOk) {
             throw InputError(options.drive.sequence + ": the tracker refuses the calibration or the image size");
         }
         CyclePorts ports;
@@ -173,6 +180,9 @@ public:
             throw std::runtime_error("can.log: cannot be written");
         }
         writers_.close();
+        if (stages_) {
+            stages_->close();
+        }
     }
 
     [[nodiscard]] RunCounts counts() const {
@@ -231,6 +241,9 @@ private:
         }
         can_.service(kBetweenCycles_ms);
         writers_.add(stereo_.frame(), *output_, cycle_->encoder().list_counter(), timer_.timing());
+        if (stages_) {
+            stages_->write(trace_.take(stereo_.frame()));
+        }
         features_.add(*output_);
         stereo_checks_.add(stereo_.frame(), *output_);
         total_us_.push_back(timer_.timing().total_us);
@@ -246,6 +259,8 @@ private:
     StageTimer timer_;
     ResultWriters writers_;
     CanOutput can_;
+    StageTrace trace_;
+    std::optional<TextOutput> stages_;
     SequenceStereoSource stereo_;
     DelayedDetectionSource detections_;
     std::optional<VehicleMotionRows> motion_;

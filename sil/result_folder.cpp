@@ -12,8 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFiles[] = {"ego.txt",  "frames.txt", "ego.csv", "objects.txt", "states.csv",
-                                  "list.csv", "points.csv", "can.log", "timing.csv",  "metrics.json"};
+constexpr const char* kFiles[] = {"ego.txt",    "frames.txt", "ego.csv",    "objects.txt", "states.csv",  "list.csv",
+                                  "points.csv", "can.log",    "timing.csv", "stages.csv",  "metrics.json"};
 constexpr const char* kPictures = "pictures";
 constexpr const char* kWork = ".semtrack-unfinished";
 

@@ -37,6 +37,7 @@ public:
 
 private:
     friend class TrackerMemory;  // says how large the members are
+    friend class StageProbe;  // of the SIL: reads what a stage left, to compare two targets stage by stage
 
     // tracker_core.cpp
     [[nodiscard]] bool acceptable(const Input& input) const;

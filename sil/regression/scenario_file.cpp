@@ -120,10 +120,9 @@ private:
         if (!names_.insert(c.name).second) {
             refuse("the name is taken twice");
         }
-        require_keys(merged,
-                     {"name", "about", "group", "replay", "without_images", "convert", "bounds", "short", "tolerance",
-                      "golden", "repeat"},
-                     "case");
+        require_keys(
+            merged, {"name", "about", "group", "replay", "convert", "bounds", "short", "tolerance", "golden", "repeat"},
+            "case");
         c.repeat = merged.value("repeat", 1);
         if (c.repeat < 1 || c.repeat > kMaxRepeat) {
             refuse("repeat is 1 to " + std::to_string(kMaxRepeat));
@@ -171,10 +170,7 @@ private:
     }
 
     void read_replay(const Json& merged, ScenarioCase& c) const {
-        Json replay = merged.at("replay");
-        if (merged.contains("without_images") && !has_images(replay, c.missing)) {
-            replay.merge_patch(merged["without_images"]);
-        }
+        const Json& replay = merged.at("replay");
         if (merged.contains("convert")) {
             const Json& convert = merged["convert"];
             require_keys(convert, {"format", "file", "viewpoints"}, "convert");
@@ -215,16 +211,6 @@ private:
             missing = path.string() + " is not there";
         }
         return path.string();
-    }
-
-    [[nodiscard]] bool has_images(const Json& replay, std::string& missing) const {
-        const fs::path root = resolve(replay.value("root", ""), missing);
-        try {
-            const DrivePaths paths = drive_paths(replay.at("layout"), root, replay.at("sequence"));
-            return fs::is_directory(paths.left) && fs::is_directory(paths.right);
-        } catch (const InputError&) {
-            return false;
-        }
     }
 
     /// As replay itself will see it.

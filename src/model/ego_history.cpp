@@ -1,5 +1,7 @@
 #include "model/ego_history.hpp"
 
+#include "math/so3.hpp"
+
 namespace semtrack {
 
 void EgoHistory::reset() {
@@ -33,6 +35,12 @@ void EgoHistory::revise(std::uint32_t frame, const Pose& T_w_c) {
         if (e.anchor == frame) {
             e.T_w_c = e.frame == frame ? T_w_c : T_w_c * e.T_anchor_c;
         }
+    }
+}
+
+void EgoHistory::turn(const Mat3& R) {
+    for (int i = 0; i < count_; ++i) {
+        entry(i).T_w_c.R = orthonormalised(entry(i).T_w_c.R * R);
     }
 }
 

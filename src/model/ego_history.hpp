@@ -19,6 +19,8 @@ public:
     void add(std::uint32_t frame, std::int64_t time_us, const Pose& T_w_c);
     /// A revised pose; frames that hang on this one follow.
     void revise(std::uint32_t frame, const Pose& T_w_c);
+    /// Every pose with its camera turned: R_w_c R.
+    void turn(const Mat3& R);
     /// From now on `frame`, and what hangs on it, follows `keyframe` with the relative pose of this moment. Nothing
     /// happens when one of them is not in the history.
     void hang(std::uint32_t frame, std::uint32_t keyframe);

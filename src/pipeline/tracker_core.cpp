@@ -116,9 +116,14 @@ Status TrackerCore::process(const Input& input, Output& output) {
     return Status::kOk;
 }
 
+// Of the camera, relative to its first pose.
+Pose TrackerCore::given_pose(const Input& input) const {
+    return T_v_c_.inverse() * to_pose(*input.T_w_v) * T_v_c_;
+}
+
 Pose TrackerCore::predict_ego(const Input& input) const {
     if (input.T_w_v != nullptr) {
-        return to_pose(*input.T_w_v) * T_v_c_;
+        return T_v_c_ * ego_.camera_pose(given_pose(input));
     }
     if (!started_) {
         return T_v_c_;
@@ -128,7 +133,6 @@ Pose TrackerCore::predict_ego(const Input& input) const {
 
 void TrackerCore::run_ego(const Input& input) {
     begin(Stage::kEgo);
-    const Pose T_wc_v = T_v_c_.inverse();
     Pose given;
     EgoInput in;
     in.time_us = time_us_;
@@ -137,13 +141,13 @@ void TrackerCore::run_ego(const Input& input) {
     in.has_images = features_usable_;
     in.motion = input.motion;
     if (input.T_w_v != nullptr) {
-        given = T_wc_v * to_pose(*input.T_w_v) * T_v_c_;
+        given = given_pose(input);
         in.given_T_w_c = &given;
     }
     if (ego_.process(in, system_, step_, ego_result_) != Status::kOk) {
         ++health_.solver_failures;
     }
-    T_w_c_ = T_v_c_ * ego_result_.T_w_c;
+    T_w_c_ = T_v_c_ * ego_result_.T_w_camera;
     for (const std::int16_t slot : ego_result_.outliers) {
         drop_feature(kBackground, slot);
     }
@@ -170,7 +174,7 @@ void TrackerCore::build_output(Output& output) {
     EgoState& ego = output.ego;
     ego.time_us = time_us_;
     ego.status = ego_result_.status;
-    ego.T_w_v = to_rigid_transform(view.T_w_v);
+    ego.T_w_v = to_rigid_transform(T_v_c_ * ego_result_.T_w_c * T_v_c_.inverse());
     describe_ego_motion(ego_result_, T_v_c_, ego);
     ego.rejected = features_usable_ ? rejection_.rejected(kBackground) : 0;
     view.sigma_speed = ego.sigma_speed;

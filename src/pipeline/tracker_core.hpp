@@ -41,6 +41,7 @@ private:
 
     // tracker_core.cpp
     [[nodiscard]] bool acceptable(const Input& input) const;
+    [[nodiscard]] Pose given_pose(const Input& input) const;
     [[nodiscard]] Pose predict_ego(const Input& input) const;
     void run_ego(const Input& input);  // stage 7
     void count_health(const Input& input);

@@ -5,6 +5,8 @@
 
 #include <memory>
 
+#include "math/so3.hpp"
+
 namespace semtrack {
 namespace {
 
@@ -30,6 +32,20 @@ TEST_F(EgoHistoryTest, EmptyOneFindsNothingAndLeavesTheOutputs) {
     EXPECT_FALSE(history_->find_time(100, frame, T));
     EXPECT_EQ(T.t(0), 7.0);
     EXPECT_EQ(frame, 3U);
+}
+
+TEST_F(EgoHistoryTest, TurningTurnsEveryCameraWhereItStands) {
+    history_->turn(rot_z(0.1));  // empty: nothing happens
+    history_->add(1, 100, at(1.0));
+    history_->add(2, 200, Pose{rot_z(0.5), Vec3(2.0, 0.0, 0.0)});
+    history_->turn(rot_z(0.1));
+    Pose T;
+    ASSERT_TRUE(history_->find(1, T));
+    EXPECT_LT((T.R - rot_z(0.1)).norm(), 1e-12);
+    ASSERT_TRUE(history_->find(2, T));
+    EXPECT_LT((T.R - rot_z(0.6)).norm(), 1e-12);
+    EXPECT_EQ(x_of(1), 1.0);
+    EXPECT_EQ(x_of(2), 2.0);
 }
 
 TEST_F(EgoHistoryTest, FullOneForgetsTheOldest) {

@@ -34,6 +34,9 @@ void EgoEstimator::init(const Calibration& calibration) {
     dt_s_ = 0.0;
     covariance_.setZero();
     response_.fill(Vec6::Zero());
+    heading_.reset();
+    given_ = false;
+    given_T_w_c_ = Pose{};
     noise_ = 1.0;
     keyframe_landmarks_ = 0;
 }
@@ -227,6 +230,7 @@ void EgoEstimator::finish(const EgoInput& input, EgoStatus status, const Pose& T
     out.status = status;
     out.dt_s = started_ ? 1e-6 * static_cast<double>(input.time_us - time_us_) : 0.0;
     out.T_w_c = T_w_c;
+    out.T_w_camera = T_w_c;
     out.T_prev_cur = started_ ? T_w_c_.inverse() * T_w_c : Pose{};
     T_cur_prev_ = out.T_prev_cur.inverse();
     dt_s_ = out.dt_s;
@@ -247,6 +251,27 @@ void EgoEstimator::finish(const EgoInput& input, EgoStatus status, const Pose& T
     started_ = true;
 }
 
+Pose EgoEstimator::camera_pose(const Pose& given_T_w_c) const {
+    return {orthonormalised(given_T_w_c.R) * heading_.correction(T_v_c_.R), given_T_w_c.t};
+}
+
+// What the step says of the given heading turns the poses before it, too: an object's window spans many of them.
+Pose EgoEstimator::take_given(const EgoInput& input) {
+    const Pose given{orthonormalised(input.given_T_w_c->R), input.given_T_w_c->t};
+    if (given_) {
+        const Mat3 before = heading_.correction(T_v_c_.R);
+        heading_.update(given_T_w_c_.inverse() * given, T_v_c_.R);
+        const Mat3 change = before.transpose() * heading_.correction(T_v_c_.R);
+        history_.turn(change);
+        T_w_c_.R = orthonormalised(T_w_c_.R * change);
+    }
+    given_ = true;
+    given_T_w_c_ = given;
+    const Pose T_w_c = camera_pose(given);
+    history_.add(input.frame, input.time_us, T_w_c);
+    return T_w_c;
+}
+
 Status EgoEstimator::process(const EgoInput& input, NormalEquations& system, SolverStep& step, EgoResult& out) {
     if (!acceptable(input)) {
         return Status::kInvalidArgument;
@@ -258,11 +283,12 @@ Status EgoEstimator::process(const EgoInput& input, NormalEquations& system, Sol
     response.fill(Vec6::Zero());
     if (input.given_T_w_c != nullptr) {
         window_.clear();
-        const Pose T_w_c{orthonormalised(input.given_T_w_c->R), input.given_T_w_c->t};
-        history_.add(input.frame, input.time_us, T_w_c);
+        const Pose T_w_c = take_given(input);
         finish(input, EgoStatus::kGiven, T_w_c, Mat6::Zero(), response, out);
+        out.T_w_c = given_T_w_c_;
         return Status::kOk;
     }
+    given_ = false;
     const MotionPrediction predicted = predict(input.time_us, input.motion);
     const Pose T_c_w_predicted = predicted.T_cur_prev * T_w_c_.inverse();
     Pose T_w_c = T_c_w_predicted.inverse();

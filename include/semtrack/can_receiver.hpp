@@ -74,6 +74,7 @@ struct ReceivedList {
     Received<bool> ego_degraded{};
     Received<bool> no_right_image{};
     Received<bool> no_detections{};
+    Received<bool> road_not_plane{};
     std::uint16_t frames_dropped{0};                      ///< images lost since the sender's start, modulo 2^16
     Received<double> objects_dropped{};                   ///< road users that found no place in the list
     bool saturated{false};                                ///< at least one of the header's values is

@@ -155,6 +155,7 @@ void decode_header(const RawValues& raws, ReceivedList& list) {
     list.ego_degraded = flag(raws, S::kEgoDegraded);
     list.no_right_image = flag(raws, S::kNoRightImage);
     list.no_detections = flag(raws, S::kNoDetections);
+    list.road_not_plane = flag(raws, S::kRoadNotPlane);
     list.frames_dropped = static_cast<std::uint16_t>(raw_of(raws, S::kFramesDropped));
 }
 

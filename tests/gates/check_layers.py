@@ -18,7 +18,7 @@ ALLOWED = {
     "publish": {"include", "math", "model", "publish"},
     "pipeline": {"include", "math", "model", "front", "estimate", "track", "publish", "pipeline"},
 }
-FREESTANDING = {"array", "cstddef", "cstdint", "cstring", "cmath", "cfenv", "limits", "new", "type_traits", "utility",
+FREESTANDING = {"array", "cstddef", "cstdint", "cstring", "cmath", "cfenv", "limits", "new", "type_traits", "utility", "variant",
                 "xmmintrin.h", "emmintrin.h", "arm_neon.h", "Eigen/Core", "Eigen/LU"}
 FORBIDDEN = [
     (re.compile(r"std::(sin|cos|tan|asin|acos|atan2?|exp2?|log(2|10|1p)?|pow|hypot|cbrt|sinh|cosh|tanh)\s*\("), "libm transcendental"),

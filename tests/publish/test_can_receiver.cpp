@@ -126,6 +126,7 @@ TEST_P(CanReceiverTest, RandomListsOfEverySizeComeBackWithinHalfABitOrFlagged) {
             EXPECT_EQ(list_->ego_degraded.value, output_->health.ego_degraded);
             EXPECT_EQ(list_->no_right_image.value, output_->health.no_right_image);
             EXPECT_EQ(list_->no_detections.value, output_->health.no_detections);
+            EXPECT_EQ(list_->road_not_plane.value, output_->health.road_not_plane);
             EXPECT_EQ(list_->frames_dropped, output_->health.frames_dropped % 65536U);
             for (int k = 0; k < order.size(); ++k) {
                 object_values(output_->objects[order[k]], encoder_.list_counter(), sent);

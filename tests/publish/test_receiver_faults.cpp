@@ -215,9 +215,10 @@ TEST_P(ReceiverFaults, UnknownCodesAreNotValidAndChangeNothingElse) {
                 ASSERT_EQ(receive(list).size(), 1U) << s.name;
                 const ReceivedObject& o = list_->objects[0];
                 const int valid = list_->ego_status.valid + list_->ego_degraded.valid + list_->no_right_image.valid +
-                                  list_->no_detections.valid + o.object_class.valid + o.status.valid +
-                                  o.movement.valid + o.truncated.valid + o.occlusion.valid + o.reference_point.valid;
-                EXPECT_EQ(valid, 9) << s.name;
+                                  list_->no_detections.valid + list_->road_not_plane.valid + o.object_class.valid +
+                                  o.status.valid + o.movement.valid + o.truncated.valid + o.occlusion.valid +
+                                  o.reference_point.valid;
+                EXPECT_EQ(valid, 10) << s.name;
             }
             bit += s.length;
         }

@@ -140,6 +140,7 @@ inline void random_output(Rng& rng, int objects, Output& output) {
     output.health.ego_degraded = rng.next() % 2U == 0U;
     output.health.no_right_image = rng.next() % 2U == 0U;
     output.health.no_detections = rng.next() % 2U == 0U;
+    output.health.road_not_plane = rng.next() % 2U == 0U;
     for (int k = 0; k < objects; ++k) {
         (void)output.objects.try_push_back(random_object(rng, static_cast<std::uint32_t>(k + 1)));
     }

@@ -13,7 +13,7 @@ namespace semtrack {
 [[nodiscard]] double heading_cost(const ObjectWindow& window, const ObjectVariables& x);
 
 /// Another heading than the one that was found while the object stood. Bounded: what was found may be the twin.
-inline constexpr double kTurningMost = 8.0;  // four frames that contradict
+inline constexpr double kTurningMost = 1.0;  // half of a frame that contradicts: enough against noise
 [[nodiscard]] double turning_cost(const ObjectWindow& window, const ObjectVariables& x);
 
 /// Landmarks lie on the body: cost of those outside the box. The observations alone do not tie a box to its landmarks.

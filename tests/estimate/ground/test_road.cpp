@@ -134,7 +134,7 @@ TEST(GroundFromRoad, AHundredFramesAreNotSurerThanTheCalibrationAndTheRoadAre) {
         EXPECT_TRUE(ground.add_road(road(200, Vec3(1.65, 0.01, 0.0), k + 1), k));
     }
     const GroundPlane p = ground.plane(-1);
-    EXPECT_NEAR(p.slope_forward, 0.01, 0.001);
+    EXPECT_NEAR(p.slope_forward, 0.01, 0.002);  // the prior pulls by 0.005^2 / (0.005^2 + 0.012^2) of it
     EXPECT_GT(std::sqrt(p.covariance(1, 1)), 0.004);
     EXPECT_LT(std::sqrt(p.covariance(1, 1)), 0.0052);
 }

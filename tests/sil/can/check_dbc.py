@@ -21,7 +21,7 @@ SIGNAL = re.compile(r' SG_ (\w+) : (\d+)\|(\d+)@1\+ \(([^,]+),([^)]+)\) \[([^|]+
 COUNTING = {"E2eCrc", "E2eCounter", "E2eDataIdNibble", "ListCounter", "PairIndex", "ObjectSlot", "ProtocolVersion",
             "ImageTime", "FramesDropped"}  # all ones is a value like any other
 UNITLESS = COUNTING - {"ImageTime"} | {
-    "ObjectCount", "ObjectsDropped", "EgoStatus", "EgoDegraded", "NoRightImage", "NoDetections", "HeaderSaturated",
+    "ObjectCount", "ObjectsDropped", "EgoStatus", "EgoDegraded", "NoRightImage", "NoDetections", "RoadNotPlane", "HeaderSaturated",
     "ObjectId", "Class", "Status", "Movement", "Existence", "Truncated", "Occlusion", "ReferencePoint", "Saturated"}
 
 

@@ -34,21 +34,6 @@ bool same_object(const Detection& a, const Detection& b) {
     return shared >= kSameObjectOverlap * (area(a.box) + area(b.box) - shared);
 }
 
-bool before(const Box2d& a, const Box2d& b) {
-    return a.left != b.left ? a.left < b.left : a.right != b.right ? a.right < b.right : a.bottom < b.bottom;
-}
-
-// From left to right: tracks are numbered, and sums over them run, in an order that no score and no second box changes.
-void in_image_order(DetectionList& list) {
-    for (int i = 1; i < list.items.size(); ++i) {
-        for (int k = i; k > 0 && before(list.items[k].box, list.items[k - 1].box); --k) {
-            const Detection moved = list.items[k];
-            list.items[k] = list.items[k - 1];
-            list.items[k - 1] = moved;
-        }
-    }
-}
-
 }  // namespace
 
 std::uint32_t take_usable(const DetectionList& in, int width, int height, DetectionList& out) {
@@ -77,7 +62,6 @@ std::uint32_t take_usable(const DetectionList& in, int width, int height, Detect
             out.items[same] = d;
         }
     }
-    in_image_order(out);
     return dropped;
 }
 

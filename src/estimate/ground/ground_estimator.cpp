@@ -15,6 +15,18 @@ constexpr double kSlopeLeftSigma = 0.03;
 constexpr double kMemory_s = 0.4;
 constexpr double kHuber = 2.0;  // sigmas: a car on a drive-way, or of another size than its class
 
+// To 2^-16. Sums of such numbers below 2^36 are exact, so that the order of the slots does not change a bit.
+template <class Matrix>
+Matrix rounded(const Matrix& m) {
+    constexpr double kMagic = 1.5 * 68719476736.0;  // 1.5 * 2^36: its last bit is worth 2^-16
+    Matrix out;
+    for (int i = 0; i < static_cast<int>(m.size()); ++i) {
+        const double shifted = m(i) + kMagic;
+        out(i) = shifted - kMagic;
+    }
+    return out;
+}
+
 }  // namespace
 
 void GroundEstimator::init(const Config& config) {
@@ -88,14 +100,16 @@ void GroundEstimator::release(int slot) {
 }
 
 GroundPlane GroundEstimator::plane(int without_slot) const {
-    Mat3 information = prior_.information + all_.information + road_.information;
-    Vec3 vector = prior_.information * mean_ + all_.vector + road_.vector;
+    Mat3 of_objects = Mat3::Zero();
+    Vec3 vector_of_objects = Vec3::Zero();
     for (int s = 0; s < kMaxObjects; ++s) {
         if (s != without_slot) {
-            information += of_slot_[static_cast<std::size_t>(s)].information;
-            vector += of_slot_[static_cast<std::size_t>(s)].vector;
+            of_objects += rounded(of_slot_[static_cast<std::size_t>(s)].information);
+            vector_of_objects += rounded(of_slot_[static_cast<std::size_t>(s)].vector);
         }
     }
+    const Mat3 information = prior_.information + all_.information + road_.information + of_objects;
+    const Vec3 vector = prior_.information * mean_ + all_.vector + road_.vector + vector_of_objects;
     GroundPlane out;
     out.valid = true;
     out.covariance = information.inverse();

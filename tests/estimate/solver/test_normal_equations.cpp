@@ -98,7 +98,7 @@ TEST(NormalEquations, FullCapacityIsSolvedAsWell) {
 }
 
 TEST(NormalEquations, ASystemThatIsClearedForAnotherShapeForgetsTheFormer) {
-    const Shape pose{5, 30, false, 0.7};
+    const Shape pose{kPoseFrames, 30, false, 0.7};
     const Shape planar{4, 20, true, 0.5, Coupling::kPlanar};
     RandomProblem fresh(planar, 9);
     RandomProblem used(pose, 8);

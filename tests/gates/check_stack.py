@@ -22,7 +22,7 @@ ENTRIES = [
     ("Tracker::init", r"semtrack::default_capacities::Tracker::init\("),
     ("Cycle::step", r"semtrack::Cycle::step\("),
     ("CanEncoder::encode", r"semtrack::CanEncoder::encode\("),
-    ("CanReceiver::receive", r"semtrack::CanReceiver::receive\("),
+    ("CanReceiver::take", r"semtrack::CanReceiver::take\("),
 ]
 
 
@@ -115,7 +115,7 @@ def examine(files_o3, files_o0):
 
 
 def short_name(name):
-    plain = re.sub(r"semtrack::|default_capacities::|\(anonymous namespace\)::", "", name)
+    plain = re.sub(r"semtrack::|default_capacities::|\(anonymous namespace\)::|\{anonymous\}::", "", name)
     return re.sub(r"<.*>", "", plain.split("(")[0]).split(" ")[-1]
 
 

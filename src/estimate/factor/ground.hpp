@@ -1,6 +1,6 @@
 // Ground contact G (ours, beside the paper's cues): the bottom of the box lies on the local road,
 //   r = (p_z - d_h / 2 - z_road(p)) / sigma,   z_road: model/ground_plane.hpp, from the other objects and the road
-//   sigma^2 = (0.12 + 0.004 distance)^2 + a Sigma a^T,   a: ground_row(),  Sigma: the plane's covariance
+//   sigma^2 = (0.06 + 0.004 distance)^2 + a Sigma a^T,   a: ground_row(),  Sigma: the plane's covariance
 // Bottoms of labelled cars scatter by 0.08 to 0.19 m about a plane fitted to the other cars of the frame.
 #ifndef SEMTRACK_ESTIMATE_FACTOR_GROUND_HPP
 #define SEMTRACK_ESTIMATE_FACTOR_GROUND_HPP

@@ -32,6 +32,13 @@ StereoPointMeasurement measurement(const FeatureObservation& o) {
     return z;
 }
 
+// One residual of weight w that depends on the state of frame k and on the size.
+void add_row(int k, double w, double r, const Vec6& J, const Vec3& J_size, NormalEquations& system) {
+    system.add_frame(k, w * (J * J.transpose()), w * r * J);
+    system.add_shared(w * (J_size * J_size.transpose()), w * r * J_size);
+    system.add_frame_shared(k, w * (J * J_size.transpose()));
+}
+
 }  // namespace
 
 void ObjectProblem::begin(const ObjectWindow& window, const Calibration& calibration,
@@ -208,10 +215,7 @@ double ObjectProblem::add_view(const ObjectVariables& x, int k, NormalEquations*
         Vec6 J = Vec6::Zero();
         J.head<3>() = view.J_p;
         J(3) = view.J_theta;
-        const Vec3 J_size(0.0, view.J_width, 0.0);
-        system->add_frame(k, w * (J * J.transpose()), w * view.r * J);
-        system->add_shared(w * (J_size * J_size.transpose()), w * view.r * J_size);
-        system->add_frame_shared(k, w * (J * J_size.transpose()));
+        add_row(k, w, view.r, J, Vec3(0.0, view.J_width, 0.0), *system);
     }
     return 0.5 * share * rho.rho;
 }
@@ -230,10 +234,7 @@ double ObjectProblem::add_ground(const ObjectVariables& x, int k, NormalEquation
         const double w = share * rho.weight;
         Vec6 J = Vec6::Zero();
         J.head<3>() = g.J_p;
-        const Vec3 J_size(0.0, 0.0, g.J_height);
-        system->add_frame(k, w * (J * J.transpose()), w * g.r * J);
-        system->add_shared(w * (J_size * J_size.transpose()), w * g.r * J_size);
-        system->add_frame_shared(k, w * (J * J_size.transpose()));
+        add_row(k, w, g.r, J, Vec3(0.0, 0.0, g.J_height), *system);
     }
     return 0.5 * share * rho.rho;
 }

@@ -9,6 +9,7 @@
 #include "publish/e2e.hpp"
 #include "publish/object_list.hpp"
 #include "semtrack/can_encoder.hpp"
+#include "support/object_lists.hpp"
 
 namespace semtrack {
 namespace {
@@ -31,26 +32,7 @@ protected:
 
     [[nodiscard]] const DialectSpec& dialect() const { return dialect_spec(GetParam()); }
 
-    TrackedObject object(std::uint32_t id, double x, double y) {
-        TrackedObject o;
-        o.id = id;
-        o.slot = static_cast<int>(id) % kMaxObjects;
-        o.status = TrackStatus::kMeasured;
-        o.movement = MovementState::kMoving;
-        o.existence = 0.97;
-        o.age = 12;
-        o.has_heading = true;
-        o.position_v = {x, y, -0.4};
-        o.velocity_v = {7.3, -0.6};
-        o.speed = 7.3;
-        o.yaw_v = -0.08;
-        o.yaw_rate = 0.05;
-        o.size = {4.1, 1.7, 1.5};
-        o.sigma_position_v = {0.4, 0.2, 0.1};
-        o.sigma_velocity_v = {0.3, 0.2};
-        o.sigma_yaw = 0.06;
-        return o;
-    }
+    TrackedObject object(std::uint32_t id, double x, double y) { return test::plain_object(id, x, y); }
     void add(const TrackedObject& o) { ASSERT_TRUE(output_->objects.try_push_back(o)); }
 
     Status encode(std::int64_t age_us = 0) { return encoder_.encode(*output_, kImageTime_us + age_us, *frames_); }

@@ -1,13 +1,13 @@
 #include "sil/can_output.hpp"
 
 #include "sil/sequence.hpp"
-#ifdef SEMTRACK_HAS_SOCKETCAN
+#ifdef SEMTRACK_HAS_LINUX
 #include "hal/linux/socketcan_tx.hpp"
 #endif
 
 namespace semtrack::sil {
 
-#ifdef SEMTRACK_HAS_SOCKETCAN
+#ifdef SEMTRACK_HAS_LINUX
 
 struct CanOutput::Bus {
     hal::PosixCalls calls{};

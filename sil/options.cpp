@@ -74,6 +74,8 @@ void add_replay(CLI::App& app, ReplayOptions& o, Words& w) {
         }
     });
     app.add_flag("--realtime", o.realtime, "at the drive's own pace");
+    app.add_option("--workers", o.workers, "threads that solve objects; the same results with any number (1)")
+        ->check(CLI::Range(1, kMaxWorkers));
     app.add_flag("--pictures", o.pictures, "write pictures");
     app.add_flag("--points", o.points, "write points.csv");
     app.add_flag("--stages", o.stages, "write stages.csv: a hash of what each stage left");

@@ -9,6 +9,7 @@
 
 #include "semtrack/can_encoder.hpp"
 #include "semtrack/config.hpp"
+#include "semtrack/parallel_objects.hpp"
 #include "sil/kitti/convert_detections.hpp"
 
 namespace semtrack::sil {
@@ -42,6 +43,7 @@ struct ReplayOptions {
     CanDialect dialect{CanDialect::kFd};
     std::string can_interface;  ///< empty: can.log only
     bool realtime{false};
+    int workers{1};  ///< threads that solve objects
     bool pictures{false};
     bool points{false};
     bool stages{false};

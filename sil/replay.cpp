@@ -13,6 +13,7 @@
 #include "sil/evaluation.hpp"
 #include "sil/kitti/detection_file.hpp"
 #include "sil/kitti/vehicle_motion_file.hpp"
+#include "sil/object_workers.hpp"
 #include "sil/open_drive.hpp"
 #include "sil/report/picture_writer.hpp"
 #include "sil/report/progress.hpp"
@@ -119,6 +120,7 @@ public:
           stereo_(*drive.sequence, stereo_settings(options, drive.range), timer_),
           detections_(*drive.sequence, drive.detections.by_frame, drive.range.first, drive.range.last,
                       options.detection_delay),
+          workers_(options.workers),
           tracker_(std::make_unique<Tracker>()),
           cycle_(std::make_unique<Cycle>()),
           output_(std::make_unique<Output>()),
@@ -150,7 +152,8 @@ public:
             stages_.emplace(dir / "stages.csv");
             stages_->write(StageTrace::header());
         }
-        if (tracker_->init(options.config, drive.cameras.calibration, extractor, &trace_) != Status::kOk) {
+        if (tracker_->init(options.config, drive.cameras.calibration, extractor, &trace_, workers_.parallel()) !=
+            Status::kOk) {
             throw InputError(options.drive.sequence + ": the tracker refuses the calibration or the image size");
         }
         CyclePorts ports;
@@ -270,6 +273,7 @@ private:
 #ifdef SEMTRACK_HAS_OPENCV
     std::optional<OpenCvExtractor> extractor_;
 #endif
+    ObjectWorkers workers_;
     std::unique_ptr<Tracker> tracker_;
     std::unique_ptr<Cycle> cycle_;
     std::unique_ptr<Output> output_;

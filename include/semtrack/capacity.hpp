@@ -1,4 +1,4 @@
-// Every bound of the library, each with its reason. Changing one changes kTrackerMebibytes and nothing else.
+// Every bound of the library, each with its reason. Changing one changes kTrackerMebibytes and kWorkerKibibytes, nothing else.
 #ifndef SEMTRACK_CAPACITY_HPP
 #define SEMTRACK_CAPACITY_HPP
 
@@ -21,6 +21,7 @@ inline constexpr int kMaxDetections = 24;
 inline constexpr int kMaxBackgroundFeatures = 256;
 inline constexpr int kMaxObjectFeatures = 64;
 inline constexpr std::size_t kTrackerMebibytes = 2;
+inline constexpr std::size_t kWorkerKibibytes = 448;
 #else
 inline constexpr int kMaxImageWidth = 1248;         // KITTI 1242, padded to a multiple of 32
 inline constexpr int kMaxImageHeight = 384;         // KITTI 375, padded to a multiple of 32
@@ -29,6 +30,7 @@ inline constexpr int kMaxDetections = 64;           // per list; the highest sco
 inline constexpr int kMaxBackgroundFeatures = 512;  // paper, experiments: 500 (background)
 inline constexpr int kMaxObjectFeatures = 128;      // paper, experiments: 100 (object)
 inline constexpr std::size_t kTrackerMebibytes = 7;
+inline constexpr std::size_t kWorkerKibibytes = 768;
 #endif
 inline constexpr int kMaxOwners = kMaxObjects + 1;  // owner 0 is the background, owner k the track in slot k - 1
 inline constexpr int kMaxFeatures = kMaxBackgroundFeatures + kMaxObjects * kMaxObjectFeatures;

@@ -43,7 +43,7 @@ struct CycleCounters {
 class Cycle {
 public:
     void init(const CyclePorts& ports, const CanConfig& can);
-    /// Sets and restores the floating-point environment (round to nearest, no flush to zero). Fills Health::can_*.
+    /// Sets and restores the floating-point environment (round to nearest, no flush to zero) for encoding too. Fills Health::can_*.
     [[nodiscard]] CycleResult step(Tracker& tracker, Output& output) noexcept;
     [[nodiscard]] const CycleCounters& counters() const { return counters_; }
     [[nodiscard]] const CanEncoder& encoder() const { return encoder_; }

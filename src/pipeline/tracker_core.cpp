@@ -39,9 +39,9 @@ bool valid_config(const Config& c) {
 }  // namespace
 
 Status TrackerCore::init(const Config& config, const Calibration& calibration, FeatureExtractor* extractor,
-                         StageObserver* observer) {
+                         StageObserver* observer, const ObjectTeam& team) {
     ready_ = false;
-    if (!valid_calibration(calibration) || !valid_config(config)) {
+    if (!valid_calibration(calibration) || !valid_config(config) || !team.valid()) {
         return Status::kInvalidArgument;
     }
     config_ = config;
@@ -59,7 +59,13 @@ Status TrackerCore::init(const Config& config, const Calibration& calibration, F
     ego_.init(calibration);
     ground_.init(config);
     road_shape_.reset();
-    objects_.init(calibration, config);
+    team_ = team;
+    worker_.estimator.init(calibration, config);
+    for (ObjectWorker* worker : team.more) {
+        if (worker != nullptr) {
+            worker->estimator.init(calibration, config);
+        }
+    }
     tracks_.reset();
     unplaced_.clear();
     matcher_.reset(config.matcher, extractor);
@@ -107,7 +113,8 @@ Status TrackerCore::process(const Input& input, Output& output) {
     run_ego(input);  // 7
     learn_road();
     feed_features();
-    solve_objects();  // 8, 9
+    solve_objects();  // 8
+    align_objects();  // 9
     level_.update(T_w_c_.R * T_v_c_.R.transpose(), dt_s);
     update_lifecycle();  // 10
 
@@ -145,7 +152,7 @@ void TrackerCore::run_ego(const Input& input) {
         given = given_pose(input);
         in.given_T_w_c = &given;
     }
-    if (ego_.process(in, system_, step_, ego_result_) != Status::kOk) {
+    if (ego_.process(in, worker_.system, worker_.step, ego_result_) != Status::kOk) {
         ++health_.solver_failures;
     }
     T_w_c_ = T_v_c_ * ego_result_.T_w_camera;

@@ -8,7 +8,6 @@
 #include "estimate/ego/ego_estimator.hpp"
 #include "estimate/ground/ground_estimator.hpp"
 #include "estimate/ground/road_shape.hpp"
-#include "estimate/object/object_estimator.hpp"
 #include "front/associate/associate.hpp"
 #include "front/box/infer_box.hpp"
 #include "front/mask/owner_mask_builder.hpp"
@@ -16,6 +15,7 @@
 #include "front/match/external_features.hpp"
 #include "front/ransac/reject.hpp"
 #include "pipeline/level.hpp"
+#include "pipeline/object_team.hpp"
 #include "semtrack/tracker.hpp"
 #include "track/track_table.hpp"
 
@@ -32,7 +32,7 @@ inline constexpr int kYoungHits = 4;  ///< until then a track's motion is not kn
 class TrackerCore {
 public:
     Status init(const Config& config, const Calibration& calibration, FeatureExtractor* extractor,
-                StageObserver* observer);
+                StageObserver* observer, const ObjectTeam& team);
     Status process(const Input& input, Output& output);
 
 private:
@@ -93,6 +93,7 @@ private:
     // tracker_objects.cpp: stages 8 to 10
     void feed_features();
     void solve_objects();
+    void align_objects();
     void update_lifecycle();
 
     Config config_{};
@@ -116,7 +117,6 @@ private:
     RoadPoints road_points_{};  // that may be road, for the plane
     RoadPoints lane_points_{};  // ahead, whatever they lie on, for its shape
     RoadShape road_shape_{};
-    ObjectEstimator objects_{};
     TrackTable tracks_{};
     ChosenMatcher matcher_{};
     ExternalMatcher external_{};  // in its place while Input::features comes
@@ -136,9 +136,9 @@ private:
     MaskItems mask_items_left_{};
     MaskItems mask_items_right_{};
     MaskResults mask_results_{};
-    ObjectSolveReport solve_report_{};
-    NormalEquations system_{};
-    SolverStep step_{};
+    ObjectTeam team_{};
+    ObjectWorker worker_{};  // the first one; its solver serves the ego-motion too
+    std::array<ObjectSolveReport, kMaxObjects> solve_reports_{};
     Health health_{};
 };
 

@@ -48,33 +48,41 @@ void TrackerCore::feed_features() {
     }
 }
 
+// Every object by itself: a job reads the camera's poses and the road, and writes its own track and report only.
 void TrackerCore::solve_objects() {
+    begin(Stage::kObjects);
+    StaticVector<int, kMaxObjects> slots;
     for (int s = 0; s < kMaxObjects; ++s) {
-        Track& track = tracks_[s];
-        if (!track.alive) {
-            continue;
+        if (tracks_[s].alive) {
+            refresh_poses(tracks_[s]);
+            tracks_[s].window.newest().ground = ground_.plane(s);
+            (void)slots.try_push_back(s);
         }
-        refresh_poses(track);
-        track.window.newest().ground = ground_.plane(s);
-        begin(Stage::kObjects);
-        solve_report_ = objects_.solve(track.window, system_, step_);
-        if (!solve_report_.solved) {
-            ++health_.solver_failures;
-        }
-        for (const std::int16_t slot : solve_report_.culled) {
+    }
+    SolveJobs jobs(team_, worker_, slots, tracks_, solve_reports_);
+    team_.run(jobs, slots.size());
+    for (const int s : slots) {
+        const ObjectSolveReport& report = solve_reports_[static_cast<std::size_t>(s)];
+        health_.solver_failures += report.solved ? 0U : 1U;
+        for (const std::int16_t slot : report.culled) {
             drop_feature(s + 1, slot);
         }
-        end(Stage::kObjects);
-        if (!config_.cues.alignment || !config_.cues.features) {
-            continue;
-        }
-        begin(Stage::kAlign);
-        AlignmentReport report;
-        if (align_box(calibration_, track.window, report) != Status::kOk) {
-            report.points = 0;
-        }
-        end(Stage::kAlign);
     }
+    end(Stage::kObjects);
+}
+
+void TrackerCore::align_objects() {
+    if (!config_.cues.alignment || !config_.cues.features) {
+        return;
+    }
+    begin(Stage::kAlign);
+    for (int s = 0; s < kMaxObjects; ++s) {
+        AlignmentReport report;  // without enough points nothing is aligned, and that is no failure
+        if (tracks_[s].alive) {
+            (void)align_box(calibration_, tracks_[s].window, report);
+        }
+    }
+    end(Stage::kAlign);
 }
 
 void TrackerCore::update_lifecycle() {

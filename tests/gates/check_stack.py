@@ -14,6 +14,7 @@ BEGIN, END = "<!-- stack: tests/gates/check_stack.py --write -->", "<!-- end of 
 # Virtual calls of the core, by the function that makes them: what they reach in the core; None: the caller's own code.
 INDIRECT = [
     (r"OrbMatcher::extract", r"OrbExtractor::extract"),
+    (r"ObjectTeam::run", r"SolveJobs::run"),
     (r"(TrackerCore|PatchMatcher|OrbMatcher)::", None),  # StageObserver
     (r"Cycle::", None),  # sources, clock and bus
 ]

@@ -1,6 +1,8 @@
 // The tracker as its caller sees it: what it refuses, what it survives, what it says.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cfenv>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -209,6 +211,22 @@ TEST_F(TrackerTest, SameInputGivesTheSameBytesAfterASecondInit) {
         EXPECT_EQ(output_->ego.T_w_v.t[i], first.T_w_v.t[i]);
     }
     EXPECT_EQ(output_->ego.inliers, first.inliers);
+}
+
+TEST_F(TrackerTest, TheCallersRoundingChangesNothingAndIsGivenBack) {
+    run_frames(0, 2);
+    const std::array<double, 3> wanted = output_->ego.T_w_v.t;
+    const int before = std::fegetround();
+    ASSERT_EQ(std::fesetround(FE_UPWARD), 0);
+    const Status again = tracker_->init(Config{}, scene_.calibration());
+    for (int k = 0; k <= 2; ++k) {
+        EXPECT_EQ(run(input(k)), Status::kOk);
+    }
+    const int after = std::fegetround();
+    ASSERT_EQ(std::fesetround(before), 0);
+    EXPECT_EQ(again, Status::kOk);
+    EXPECT_EQ(after, FE_UPWARD);
+    EXPECT_EQ(output_->ego.T_w_v.t, wanted);
 }
 
 }  // namespace

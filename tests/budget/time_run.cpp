@@ -1,0 +1,110 @@
+// usage: semtrack-time-run SCENE BACKGROUND_FEATURES OBJECT_FEATURES RUNS [SKIPPED_FRAMES]
+// Milliseconds a frame and stage: each frame's minimum over the runs; of those the median and the maximum. Rows
+// "name median maximum", and how full the capacities were: "name median minimum".
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+
+#include "budget/scene_run.hpp"
+
+namespace {
+
+using namespace semtrack;
+
+class Stopwatch final : public StageObserver {
+public:
+    void begin(Stage) noexcept override { start_ = std::chrono::steady_clock::now(); }
+    void end(Stage stage) noexcept override { ms_[static_cast<std::size_t>(stage)] += since(start_); }
+    void start_frame() {
+        ms_.fill(0.0);
+        frame_start_ = std::chrono::steady_clock::now();
+    }
+    [[nodiscard]] std::array<double, kStages + 1> frame() {
+        ms_[kStages] = since(frame_start_);
+        return ms_;
+    }
+
+private:
+    static double since(std::chrono::steady_clock::time_point start) {
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    }
+    std::chrono::steady_clock::time_point start_{};
+    std::chrono::steady_clock::time_point frame_start_{};
+    std::array<double, kStages + 1> ms_{};
+};
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2U];
+}
+
+void print_loads(const std::vector<budget::Load>& loads) {
+    const auto row = [&loads](const char* name, int budget::Load::*value) {
+        std::vector<double> values;
+        for (const budget::Load& load : loads) {
+            values.push_back(load.*value);
+        }
+        (void)std::printf("%s %.0f %.0f\n", name, median(values), *std::min_element(values.begin(), values.end()));
+    };
+    row("measured_objects", &budget::Load::objects);
+    row("background_features", &budget::Load::background);
+    row("object_features", &budget::Load::on_objects);
+    row("least_on_an_object", &budget::Load::least_on_object);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc < 5) {
+        (void)std::fputs("usage: semtrack-time-run SCENE BACKGROUND_FEATURES OBJECT_FEATURES RUNS [SKIPPED]\n", stderr);
+        return 2;
+    }
+    std::ifstream in(argv[1], std::ios::binary);
+    const std::vector<char> bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    Config config;
+    config.background_features = std::atoi(argv[2]);
+    config.object_features = std::atoi(argv[3]);
+    const auto skipped = static_cast<std::size_t>(argc > 5 ? std::atoi(argv[5]) : 0);
+    std::vector<std::array<double, kStages + 1>> least;
+    std::vector<budget::Load> loads;
+    for (int k = 0; k < std::atoi(argv[4]); ++k) {
+        Stopwatch watch;
+        const auto run =
+            std::make_unique<budget::SceneRun>(std::vector<std::uint8_t>(bytes.begin(), bytes.end()), config, &watch);
+        loads.clear();
+        for (std::size_t frame = 0;; ++frame) {
+            watch.start_frame();
+            if (!run->step()) {
+                break;
+            }
+            const auto now = watch.frame();
+            loads.push_back(run->load());
+            if (least.size() <= frame) {
+                least.push_back(now);
+            }
+            for (std::size_t s = 0; s < now.size(); ++s) {
+                least[frame][s] = std::min(least[frame][s], now[s]);
+            }
+        }
+    }
+    if (least.size() <= skipped) {
+        return 1;
+    }
+    least.erase(least.begin(), least.begin() + static_cast<std::ptrdiff_t>(skipped));
+    loads.erase(loads.begin(), loads.begin() + static_cast<std::ptrdiff_t>(skipped));
+    for (std::size_t s = 0; s <= kStages; ++s) {
+        std::vector<double> values;
+        for (const auto& frame : least) {
+            values.push_back(frame[s]);
+        }
+        (void)std::printf("%s %.3f %.3f\n", s == kStages ? "frame" : stage_name(static_cast<Stage>(s)), median(values),
+                          *std::max_element(values.begin(), values.end()));
+    }
+    print_loads(loads);
+    return 0;
+}

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/camera.hpp"
+#include "math/rng.hpp"
 #include "math/trig.hpp"
 #include "model/box_geometry.hpp"
 #include "support/plane_scene.hpp"
@@ -64,6 +65,10 @@ Box object(const Calibration& c, int k, double t_s) {
     box.texels_per_m = c.left.fx / kNearest_m;
     box.seed = 100U + static_cast<std::uint32_t>(k);
     return box;
+}
+
+Vec3 eye(double t_s) {
+    return {0.0, 0.0, kEgoSwing_m * std::sin(2.0 * kPi * t_s / kEgoPeriod_s)};
 }
 
 std::vector<Box> background(const Calibration& c) {
@@ -139,7 +144,7 @@ board::SceneWriter make_load_scene(int objects, int frames) {
         const std::int64_t time_us = frame * kFrame_us;
         const double t_s = 1e-6 * static_cast<double>(time_us);
         std::vector<Box> boxes = background(c);
-        const Vec3 eye_w(0.0, 0.0, kEgoSwing_m * std::sin(2.0 * kPi * t_s / kEgoPeriod_s));
+        const Vec3 eye_w = eye(t_s);
         std::vector<Detection> detections;
         for (int k = 0; k < objects; ++k) {
             boxes.push_back(object(c, k, t_s));
@@ -163,6 +168,71 @@ board::SceneWriter make_load_scene(int objects, int frames) {
         scene.frame(time_us, &detections, left.view(), right.view());
     }
     return scene;
+}
+
+namespace {
+
+constexpr double kNoise_px = 0.3;
+constexpr int kAcross = 16;  // points on a box's rear, in eight rows
+
+/// Point i of box k, O: on its rear, away from the rim.
+Vec3 point_on_rear(int i, Rng& rng) {
+    const double across = (i % kAcross + 0.2 + 0.6 * rng.uniform()) / kAcross - 0.5;
+    const double up = (i / kAcross + 0.2 + 0.6 * rng.uniform()) * kAcross / kMaxObjectFeatures - 0.5;
+    return {-0.5 * kSize_m(0) + 0.2 * rng.uniform(), 0.8 * across * kSize_m(1), 0.8 * up * kSize_m(2)};
+}
+
+/// Above and below all boxes.
+Vec3 background_point(const Calibration& c, Rng& rng) {
+    const double v = rng.uniform() < 0.5 ? 5.0 + 7.0 * rng.uniform() : kHeight - 12.0 + 7.0 * rng.uniform();
+    return bearing(c.left, 20.0 + (kWidth - 40.0) * rng.uniform(), v) * (18.0 + 27.0 * rng.uniform());
+}
+
+ExternalFeature feature(const Calibration& c, int id, const Vec3& x_c, Rng& noise) {
+    ExternalFeature f;
+    f.id = static_cast<std::uint32_t>(id);
+    f.stereo = true;
+    const Vec2 at = project(c.left, x_c);
+    f.u = static_cast<float>(at(0) + kNoise_px * noise.normal());
+    f.v = static_cast<float>(at(1) + kNoise_px * noise.normal());
+    f.u_right = static_cast<float>(right_column(c, at(0), x_c(2)) + kNoise_px * noise.normal());
+    f.sigma_px = static_cast<float>(kNoise_px);
+    return f;
+}
+
+}  // namespace
+
+LoadFeatures::LoadFeatures(int objects, int frames) {
+    const Calibration c = calibration();
+    for (int frame = 0; frame < frames; ++frame) {
+        const double t_s = 1e-6 * static_cast<double>(frame * kFrame_us);
+        std::vector<ExternalFeature>& out = by_time_[frame * kFrame_us];
+        Rng noise(static_cast<std::uint32_t>(frame) + 1U);
+        Rng places(77);
+        for (int i = 0; i < kMaxBackgroundFeatures; ++i) {
+            out.push_back(feature(c, i, background_point(c, places) - eye(t_s), noise));
+        }
+        for (int k = 0; k < objects; ++k) {
+            const Box box = object(c, k, t_s);
+            for (int i = 0; i < kMaxObjectFeatures; ++i) {
+                const Vec3 x_w = box.T_w_o * point_on_rear(i, places);
+                out.push_back(feature(c, 1000 * (k + 1) + i, x_w - eye(t_s), noise));
+            }
+        }
+    }
+}
+
+SourceResult LoadFeatures::poll(std::int64_t time_us, ExternalFeatures& features) noexcept {
+    const auto found = by_time_.find(time_us);
+    if (found == by_time_.end()) {
+        return SourceResult::kNone;
+    }
+    for (const ExternalFeature& f : found->second) {
+        if (!features.try_push_back(f)) {
+            break;
+        }
+    }
+    return SourceResult::kOk;
 }
 
 }  // namespace semtrack::budget

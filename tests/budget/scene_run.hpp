@@ -21,14 +21,16 @@ struct Load {
 
 class SceneRun {
 public:
-    /// observer: told of the stages, encoding included; may be null.
-    SceneRun(std::vector<std::uint8_t> scene, const Config& config, StageObserver* observer)
+    /// observer: told of the stages, encoding included. features: in place of the images' own. Both may be null.
+    SceneRun(std::vector<std::uint8_t> scene, const Config& config, StageObserver* observer,
+             FeatureSource* features = nullptr)
         : scene_(std::move(scene)), reader_(scene_.data(), scene_.size()), source_(reader_) {
         ready_ = reader_.ok() && tracker_.init(config, reader_.calibration(), nullptr, observer) == Status::kOk;
         CyclePorts ports;
         ports.stereo = &source_;
         ports.detections = &source_;
         ports.can = &bus_;
+        ports.features = features;
         ports.observer = observer;
         cycle_.init(ports, CanConfig{});
     }

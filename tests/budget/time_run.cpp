@@ -1,4 +1,5 @@
-// usage: semtrack-time-run SCENE BACKGROUND_FEATURES OBJECT_FEATURES RUNS [SKIPPED_FRAMES]
+// usage: semtrack-time-run SCENE BACKGROUND_FEATURES OBJECT_FEATURES RUNS SKIPPED_FRAMES [GIVEN_OBJECTS]
+// GIVEN_OBJECTS: the scene is that of semtrack-budget-scene load, its features come from outside (LoadFeatures).
 // Milliseconds a frame and stage: each frame's minimum over the runs; of those the median and the maximum. Rows
 // "name median maximum", and how full the capacities were: "name median minimum".
 #include <algorithm>
@@ -10,11 +11,14 @@
 #include <memory>
 #include <string>
 
+#include "budget/load_scene.hpp"
 #include "budget/scene_run.hpp"
 
 namespace {
 
 using namespace semtrack;
+
+constexpr int kMostFrames = 100;
 
 class Stopwatch final : public StageObserver {
 public:
@@ -60,8 +64,9 @@ void print_loads(const std::vector<budget::Load>& loads) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc < 5) {
-        (void)std::fputs("usage: semtrack-time-run SCENE BACKGROUND_FEATURES OBJECT_FEATURES RUNS [SKIPPED]\n", stderr);
+    if (argc < 6) {
+        (void)std::fputs("usage: semtrack-time-run SCENE BACKGROUND_FEATURES OBJECT_FEATURES RUNS SKIPPED [GIVEN]\n",
+                         stderr);
         return 2;
     }
     std::ifstream in(argv[1], std::ios::binary);
@@ -69,13 +74,17 @@ int main(int argc, char** argv) {
     Config config;
     config.background_features = std::atoi(argv[2]);
     config.object_features = std::atoi(argv[3]);
-    const auto skipped = static_cast<std::size_t>(argc > 5 ? std::atoi(argv[5]) : 0);
+    const auto skipped = static_cast<std::size_t>(std::atoi(argv[5]));
+    std::unique_ptr<budget::LoadFeatures> given;
+    if (argc > 6) {
+        given = std::make_unique<budget::LoadFeatures>(std::atoi(argv[6]), kMostFrames);
+    }
     std::vector<std::array<double, kStages + 1>> least;
     std::vector<budget::Load> loads;
     for (int k = 0; k < std::atoi(argv[4]); ++k) {
         Stopwatch watch;
-        const auto run =
-            std::make_unique<budget::SceneRun>(std::vector<std::uint8_t>(bytes.begin(), bytes.end()), config, &watch);
+        const auto run = std::make_unique<budget::SceneRun>(std::vector<std::uint8_t>(bytes.begin(), bytes.end()),
+                                                            config, &watch, given.get());
         loads.clear();
         for (std::size_t frame = 0;; ++frame) {
             watch.start_frame();

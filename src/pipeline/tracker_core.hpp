@@ -92,6 +92,7 @@ private:
 
     // tracker_objects.cpp: stages 8 to 10
     void feed_features();
+    void share_solver();
     void solve_objects();
     void update_lifecycle();
 
@@ -136,6 +137,7 @@ private:
     MaskItems mask_items_left_{};
     MaskItems mask_items_right_{};
     MaskResults mask_results_{};
+    SolveShares shares_{};
     ObjectSolveReport solve_report_{};
     NormalEquations system_{};
     SolverStep step_{};

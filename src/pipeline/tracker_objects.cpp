@@ -48,7 +48,16 @@ void TrackerCore::feed_features() {
     }
 }
 
+void TrackerCore::share_solver() {
+    SolveWork work{};
+    for (int s = 0; s < kMaxObjects; ++s) {
+        work[static_cast<std::size_t>(s)] = tracks_[s].alive ? iteration_work(tracks_[s].window) : 0;
+    }
+    health_.solves_shortened += static_cast<std::uint32_t>(share_out(work, frame_, shares_));
+}
+
 void TrackerCore::solve_objects() {
+    share_solver();
     for (int s = 0; s < kMaxObjects; ++s) {
         Track& track = tracks_[s];
         if (!track.alive) {
@@ -57,7 +66,7 @@ void TrackerCore::solve_objects() {
         refresh_poses(track);
         track.window.newest().ground = ground_.plane(s);
         begin(Stage::kObjects);
-        solve_report_ = objects_.solve(track.window, system_, step_);
+        solve_report_ = objects_.solve(track.window, system_, step_, shares_[static_cast<std::size_t>(s)]);
         if (!solve_report_.solved) {
             ++health_.solver_failures;
         }

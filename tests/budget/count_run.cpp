@@ -1,4 +1,4 @@
-// usage: semtrack-count-run SCENE BACKGROUND_FEATURES OBJECT_FEATURES
+// usage: semtrack-count-run SCENE BACKGROUND_FEATURES OBJECT_FEATURES [GIVEN_OBJECTS]
 // Runs a scene under an instruction counter. The counter (callgrind, or the plugin of qemu-user) watches the functions
 // semtrack_count_*: from one to the next, every instruction belongs to the stage that the first one names.
 #include <cstdio>
@@ -7,6 +7,7 @@
 #include <iterator>
 #include <memory>
 
+#include "budget/load_scene.hpp"
 #include "budget/scene_run.hpp"
 
 // Not inlined, not merged with each other: each has an address and a name of its own.
@@ -34,6 +35,8 @@ namespace {
 
 using namespace semtrack;
 
+constexpr int kMostFrames = 100;
+
 class Marker final : public StageObserver {
 public:
     void begin(Stage stage) noexcept override {
@@ -56,8 +59,8 @@ std::vector<std::uint8_t> read_scene(const char* file) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 4) {
-        (void)std::fputs("usage: semtrack-count-run SCENE BACKGROUND_FEATURES OBJECT_FEATURES\n", stderr);
+    if (argc < 4) {
+        (void)std::fputs("usage: semtrack-count-run SCENE BACKGROUND_FEATURES OBJECT_FEATURES [GIVEN]\n", stderr);
         return 2;
     }
     const std::vector<std::uint8_t> scene = read_scene(argv[1]);
@@ -65,7 +68,11 @@ int main(int argc, char** argv) {
     config.background_features = std::atoi(argv[2]);
     config.object_features = std::atoi(argv[3]);
     Marker marker;
-    const auto run = std::make_unique<budget::SceneRun>(scene, config, &marker);
+    std::unique_ptr<budget::LoadFeatures> given;
+    if (argc > 4) {
+        given = std::make_unique<budget::LoadFeatures>(std::atoi(argv[4]), kMostFrames);
+    }
+    const auto run = std::make_unique<budget::SceneRun>(scene, config, &marker, given.get());
     for (int frame = 0; frame < run->frames(); ++frame) {
         semtrack_count_between();
         const bool processed = run->step();

@@ -47,6 +47,19 @@ double median(std::vector<double> values) {
     return values[values.size() / 2U];
 }
 
+/// What depends on the images alone, and everything else: a scene of images and one of given features each say half of
+/// the worst case.
+void print_parts(const std::vector<std::array<double, kStages + 1>>& frames) {
+    std::vector<double> front;
+    std::vector<double> rest;
+    for (const auto& ms : frames) {
+        front.push_back(ms[static_cast<std::size_t>(Stage::kExtract)] + ms[static_cast<std::size_t>(Stage::kMatch)]);
+        rest.push_back(ms[kStages] - front.back());
+    }
+    (void)std::printf("extract_and_match %.3f %.3f\n", median(front), *std::max_element(front.begin(), front.end()));
+    (void)std::printf("rest %.3f %.3f\n", median(rest), *std::max_element(rest.begin(), rest.end()));
+}
+
 void print_loads(const std::vector<budget::Load>& loads) {
     const auto row = [&loads](const char* name, int budget::Load::*value) {
         std::vector<double> values;
@@ -114,6 +127,7 @@ int main(int argc, char** argv) {
         (void)std::printf("%s %.3f %.3f\n", s == kStages ? "frame" : stage_name(static_cast<Stage>(s)), median(values),
                           *std::max_element(values.begin(), values.end()));
     }
+    print_parts(least);
     print_loads(loads);
     return 0;
 }

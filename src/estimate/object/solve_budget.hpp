@@ -1,5 +1,5 @@
 // Bounded work of the objects' solves. What a frame may spend on them is a number of operations, not a time, so that
-// every target decides alike. Up to seven full objects nothing is cut; beyond, solves get fewer iterations (they are
+// every target decides alike. Up to six full objects nothing is cut; beyond, solves get fewer iterations (they are
 // warm-started, so the next frames go on where this one stopped), and trials of other hypotheses take turns.
 #ifndef SEMTRACK_ESTIMATE_OBJECT_SOLVE_BUDGET_HPP
 #define SEMTRACK_ESTIMATE_OBJECT_SOLVE_BUDGET_HPP
@@ -13,7 +13,7 @@
 namespace semtrack {
 
 inline constexpr int kObjectIterations = 5;       // converging further was no more accurate on 200 random problems
-inline constexpr int kLeastObjectIterations = 3;  // of a warm-started solve
+inline constexpr int kLeastObjectIterations = 2;  // of a warm-started solve
 
 /// What one object's solve may spend.
 struct SolveShare {

@@ -1,7 +1,7 @@
 # Shared by ./demo and ./test: set-up of a Debian 12 machine, and progress lines. Sourced, not run.
 packages="g++ clang cmake ninja-build libeigen3-dev libopencv-core-dev libopencv-features2d-dev libgtest-dev libpng-dev
 libcli11-dev nlohmann-json3-dev python3 python3-canmatrix binutils
-libbenchmark-dev"
+libbenchmark-dev valgrind"
 
 started=$(date +%s)
 

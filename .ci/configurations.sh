@@ -50,16 +50,27 @@ without_emulator() {
     }
 }
 
-# small_capacities: the core's tests and a whole replay with SEMTRACK_CAPACITY=small.
+# small_capacities: 8 objects and 256 features, in a street with 14 objects: whole, and the same on a bare board.
 small_capacities() {
-    step "configure, build and test: small capacities"
-    { cmake --preset host-release -B build/small -DSEMTRACK_CAPACITY=small &&
-        cmake --build build/small --target semtrack_core_tests semtrack-sil test_sil_heap; } >build/small.log 2>&1 || {
+    local scene=$PWD/build/board/scene.bin host board
+    step "small capacities: host and Cortex-M7"
+    { cmake --preset sanitize -B build/small -DSEMTRACK_CAPACITY=small &&
+        cmake --build build/small --target semtrack-board-run &&
+        cmake --preset cortex-m7 -B build/cortex-m7-small -DSEMTRACK_CAPACITY=small -DSEMTRACK_BOARD_SCENE="$scene" &&
+        cmake --build build/cortex-m7-small; } >build/small.log 2>&1 || {
         grep -E 'error|FAILED' build/small.log | head -n 20
-        finish 1 "FAILED: build with small capacities (whole log: build/small.log)"
+        finish 1 "FAILED: small capacities (whole log: build/small.log)"
     }
-    ctest --test-dir build/small --output-on-failure --parallel 2 --no-tests=error -L core >build/small-tests.log 2>&1 || {
-        tail -n 40 build/small-tests.log
-        finish 1 "FAILED: tests with small capacities"
-    }
+    host=$(build/small/bin/semtrack-board-run "$scene") || finish 1 "FAILED: run with small capacities: $host"
+    board=$(on_board build/cortex-m7-small/bin/semtrack-board.elf)
+    printf '  host       %s\n  Cortex-M7  %s\n' "$host" "$board"
+    case $board in
+    "$host
+stack "*) ;;
+    *) finish 1 "FAILED: the board's CAN frames with small capacities are not the host's" ;;
+    esac
+    case $host in
+    *" objects 8 "*) ;;
+    *) finish 1 "FAILED: small capacities were not filled" ;;
+    esac
 }

@@ -39,6 +39,23 @@ target_tests() {
     }
 }
 
+# count_instructions PRESET...: of a frame and its stages under qemu-user, against docs/budgets.md.
+count_instructions() {
+    local preset version scene=build/instructions.scene plugin=build/count_stages.so
+    build host-release semtrack-budget-scene
+    build/host-release/bin/semtrack-budget-scene street "$scene" 10 || finish 1 "FAILED: scene of the counts"
+    gcc -O2 -Wall -Wextra -Werror -shared -fPIC tests/budget/count_stages.c -o "$plugin" || finish 1 "FAILED: plugin"
+    for preset in "$@"; do
+        build "$preset" semtrack-count-run
+        step "gate: instructions, $preset"
+        version=$(sed -n 's/^set(CMAKE_CXX_COMPILER_VERSION "\(.*\)")/\1/p' "build/$preset"/CMakeFiles/*/CMakeCXXCompiler.cmake)
+        set -- . "$preset" "g++ $version" "build/$preset/bin/semtrack-count-run" "$scene" \
+            "$plugin" "${SEMTRACK_SYSROOT:-build/sysroot}"
+        python3 tests/gates/check_instructions.py "$@" || finish 1 "FAILED: instructions of $preset"
+        python3 tests/gates/check_instructions.py "$@" --plant || finish 1 "FAILED: planted instructions of $preset"
+    done
+}
+
 # board_image: the core on a bare Cortex-M7 prints the hash that the host prints.
 board_image() {
     local scene=$PWD/build/board/scene.bin host board

@@ -173,6 +173,7 @@ struct Health {
     std::uint32_t detections_dropped{0};    ///< not finite, inverted, outside the image, doubled, or beyond a capacity
     std::uint32_t tracks_dropped{0};        ///< no free slot
     std::uint32_t features_rejected{0};     ///< by RANSAC
+    std::uint32_t solves_shortened{0};      ///< objects solved with fewer iterations or without trials: bounded work
     std::uint32_t solver_failures{0};       ///< not one step lowered the cost; the start was kept
     float row_offset_px{0};                 ///< rows that the right image lies lower than the calibration says, measured
                                             ///< slowly: a camera that moved shows here first

@@ -16,9 +16,10 @@ void ObjectTeam::run(Jobs& jobs, int count) const {
 
 void SolveJobs::run(int job, int worker) noexcept {
     const FloatEnvironment environment;
-    ObjectWorker& w = worker == 0 ? first_ : *team_.more[static_cast<std::size_t>(worker - 1)];
-    const int slot = slots_[job];
-    reports_[static_cast<std::size_t>(slot)] = w.estimator.solve(tracks_[slot].window, w.system, w.step);
+    const auto slot = static_cast<std::size_t>(parts_.slots[job]);
+    ObjectWorker& w = worker == 0 ? parts_.first : *parts_.team.more[static_cast<std::size_t>(worker - 1)];
+    ObjectWindow& window = parts_.tracks[parts_.slots[job]].window;
+    parts_.reports[slot] = w.estimator.solve(window, w.system, w.step, parts_.shares[slot]);
 }
 
 }  // namespace semtrack

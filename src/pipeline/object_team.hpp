@@ -5,6 +5,7 @@
 #include <array>
 
 #include "estimate/object/object_estimator.hpp"
+#include "estimate/object/solve_budget.hpp"
 #include "semtrack/parallel_objects.hpp"
 #include "semtrack/static_vector.hpp"
 #include "track/track_table.hpp"
@@ -30,22 +31,24 @@ struct ObjectTeam {
     void run(Jobs& jobs, int count) const;
 };
 
-/// Job i: the window of the track in slots[i]; its report goes to the slot's place.
+/// Job i: the window of the track in slots[i], with the slot's share; its report goes to the slot's place.
 class SolveJobs final : public Jobs {
 public:
-    SolveJobs(const ObjectTeam& team, ObjectWorker& first, const StaticVector<int, kMaxObjects>& slots,
-              TrackTable& tracks, std::array<ObjectSolveReport, kMaxObjects>& reports)
-        : team_(team), first_(first), slots_(slots), tracks_(tracks), reports_(reports) {}
+    struct Parts {
+        const ObjectTeam& team;
+        ObjectWorker& first;
+        const StaticVector<int, kMaxObjects>& slots;
+        const SolveShares& shares;
+        TrackTable& tracks;
+        std::array<ObjectSolveReport, kMaxObjects>& reports;
+    };
+    explicit SolveJobs(const Parts& parts) : parts_(parts) {}
 
     /// Sets the floating-point environment of the worker's thread for the job.
     void run(int job, int worker) noexcept override;
 
 private:
-    const ObjectTeam& team_;
-    ObjectWorker& first_;
-    const StaticVector<int, kMaxObjects>& slots_;
-    TrackTable& tracks_;
-    std::array<ObjectSolveReport, kMaxObjects>& reports_;
+    Parts parts_;
 };
 
 }  // namespace semtrack

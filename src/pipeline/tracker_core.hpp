@@ -92,6 +92,7 @@ private:
 
     // tracker_objects.cpp: stages 8 to 10
     void feed_features();
+    void share_solver();
     void solve_objects();
     void align_objects();
     void update_lifecycle();
@@ -136,6 +137,7 @@ private:
     MaskItems mask_items_left_{};
     MaskItems mask_items_right_{};
     MaskResults mask_results_{};
+    SolveShares shares_{};
     ObjectTeam team_{};
     ObjectWorker worker_{};  // the first one; its solver serves the ego-motion too
     std::array<ObjectSolveReport, kMaxObjects> solve_reports_{};

@@ -48,9 +48,18 @@ void TrackerCore::feed_features() {
     }
 }
 
-// Every object by itself: a job reads the camera's poses and the road, and writes its own track and report only.
+void TrackerCore::share_solver() {
+    SolveWork work{};
+    for (int s = 0; s < kMaxObjects; ++s) {
+        work[static_cast<std::size_t>(s)] = tracks_[s].alive ? iteration_work(tracks_[s].window) : 0;
+    }
+    health_.solves_shortened += static_cast<std::uint32_t>(share_out(work, frame_, shares_));
+}
+
+// Every object by itself: a job reads the camera's poses, the road and its share, and writes its own track and report.
 void TrackerCore::solve_objects() {
     begin(Stage::kObjects);
+    share_solver();
     StaticVector<int, kMaxObjects> slots;
     for (int s = 0; s < kMaxObjects; ++s) {
         if (tracks_[s].alive) {
@@ -59,7 +68,7 @@ void TrackerCore::solve_objects() {
             (void)slots.try_push_back(s);
         }
     }
-    SolveJobs jobs(team_, worker_, slots, tracks_, solve_reports_);
+    SolveJobs jobs({team_, worker_, slots, shares_, tracks_, solve_reports_});
     team_.run(jobs, slots.size());
     for (const int s : slots) {
         const ObjectSolveReport& report = solve_reports_[static_cast<std::size_t>(s)];

@@ -2,30 +2,12 @@
 
 #include <cstring>
 
-#include "board/scene.hpp"
+#include "board/scene_source.hpp"
 #include "semtrack/cycle.hpp"
 
 namespace semtrack::board {
 
 namespace {
-
-class SceneSource final : public StereoSource, public DetectionSource {
-public:
-    explicit SceneSource(SceneReader& reader) : reader_(reader) {}
-
-    SourceResult next(StereoFrame& frame) noexcept override {
-        return reader_.next(frame, list_, has_list_) ? SourceResult::kOk : SourceResult::kEnd;
-    }
-    SourceResult poll(std::int64_t, StaticVector<DetectionList, kMaxDetectionLists>& lists) noexcept override {
-        lists.clear();
-        return has_list_ && lists.try_push_back(list_) ? SourceResult::kOk : SourceResult::kNone;
-    }
-
-private:
-    SceneReader& reader_;
-    DetectionList list_{};
-    bool has_list_{false};
-};
 
 class HashingBus final : public CanTx {
 public:

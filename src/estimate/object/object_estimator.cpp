@@ -15,9 +15,6 @@ namespace semtrack {
 
 namespace {
 
-// Five iterations, warm-started: converging further was no more accurate on 200 random problems and cost four times
-// as much in the tail.
-constexpr int kObjectIterations = 5;
 constexpr double kMaxPlausibleSpeed = 90.0;  // m/s
 constexpr double kMinStereoDisparity_px = 2.0;
 constexpr double kDoubtfulViews = 2.0;  // over the window
@@ -42,35 +39,48 @@ void ObjectEstimator::run(ObjectWindow& window, bool standing, NormalEquations& 
     options_.standing = standing;
     options_.hold_heading = standing;
     problem_.begin(window, calibration_, options_);
-    LmOptions lm;
-    lm.iterations = kObjectIterations;
-    lm_ = levenberg_marquardt(problem_, lm, system, step);
+    lm_ = levenberg_marquardt(problem_, lm_options_, system, step);
 }
 
-ObjectSolveReport ObjectEstimator::solve(ObjectWindow& window, NormalEquations& system, SolverStep& step) {
-    ObjectSolveReport report;
-    if (window.frames.empty()) {
-        return report;
-    }
+// Moving or standing, whatever explains the window better. true: standing; the problem holds the chosen solution.
+bool ObjectEstimator::choose_hypothesis(ObjectWindow& window, ObjectSolveReport& report, NormalEquations& system,
+                                        SolverStep& step) {
     run(window, false, system, step);
     const LmReport moving = lm_;
     moving_ = problem_.variables();
     const int last = window.frames.size() - 1;
     const double most = window.standing ? kStandingMaxSpeedKeep : kStandingMaxSpeed;
     const bool slow = std::fabs(moving_.state[static_cast<std::size_t>(last)].v) < most;
-    bool standing = false;
-    if (options_.cues.motion && slow && last >= 1) {
-        run(window, true, system, step);
-        report.standing_gain = 2.0 * (lm_.final_cost - moving.final_cost);
-        standing = report.standing_gain < (window.standing ? kStandingGainKeep : kStandingGain);
-        if (!standing) {
-            options_.standing = options_.hold_heading = false;
-            problem_.begin(window, calibration_, options_);
-            problem_.set(moving_);
-            lm_ = moving;
-        }
+    if (!options_.cues.motion || !slow || last < 1) {
+        return false;
     }
-    try_other_starts(window, standing, system, step);
+    run(window, true, system, step);
+    report.standing_gain = 2.0 * (lm_.final_cost - moving.final_cost);
+    if (report.standing_gain < (window.standing ? kStandingGainKeep : kStandingGain)) {
+        return true;
+    }
+    options_.standing = options_.hold_heading = false;
+    problem_.begin(window, calibration_, options_);
+    problem_.set(moving_);
+    lm_ = moving;
+    return false;
+}
+
+ObjectSolveReport ObjectEstimator::solve(ObjectWindow& window, NormalEquations& system, SolverStep& step,
+                                         const SolveShare& share) {
+    ObjectSolveReport report;
+    if (window.frames.empty()) {
+        return report;
+    }
+    lm_options_.iterations = share.iterations;
+    const int last = window.frames.size() - 1;
+    bool standing = window.standing;
+    if (share.trials) {
+        standing = choose_hypothesis(window, report, system, step);
+        try_other_starts(window, standing, system, step);
+    } else {
+        run(window, standing, system, step);
+    }
     if (turning_cost(window, problem_.variables()) >= kTurningMost) {
         window.heading_information = 0.0;  // it was of another heading
     }
@@ -159,9 +169,7 @@ void ObjectEstimator::keep_better(const ObjectWindow& window, bool standing, Nor
     problem_.begin(window, calibration_, options_);
     problem_.hold_heading(standing && within);
     problem_.set(other_);
-    LmOptions lm;
-    lm.iterations = kObjectIterations;
-    lm_ = levenberg_marquardt(problem_, lm, system, step);
+    lm_ = levenberg_marquardt(problem_, lm_options_, system, step);
     const ObjectVariables& x = problem_.variables();
     const double other = lm_.final_cost + heading_cost(window, x) + outside_cost(window, x) +
                          (standing && !within ? turning_cost(window, x) : 0.0);

@@ -4,6 +4,7 @@
 #define SEMTRACK_ESTIMATE_OBJECT_OBJECT_ESTIMATOR_HPP
 
 #include "estimate/object/object_problem.hpp"
+#include "estimate/object/solve_budget.hpp"
 #include "estimate/solver/levenberg_marquardt.hpp"
 #include "semtrack/static_vector.hpp"
 
@@ -23,11 +24,14 @@ public:
 
     /// The window's newest frame holds a prediction and the new measurements. After the call: states, size, covariance
     /// and landmarks are updated. Scratch is passed in: one workspace serves ego-motion and all objects.
-    /// Cost: two solves of 5 iterations, a third one
-    /// when the heading is in doubt. An empty window is not solved.
-    ObjectSolveReport solve(ObjectWindow& window, NormalEquations& system, SolverStep& step);
+    /// Cost: two solves of share.iterations, a third one when the heading is in doubt; without trials one, and what
+    /// stood goes on standing. An empty window is not solved.
+    ObjectSolveReport solve(ObjectWindow& window, NormalEquations& system, SolverStep& step,
+                            const SolveShare& share = SolveShare{});
 
 private:
+    [[nodiscard]] bool choose_hypothesis(ObjectWindow& window, ObjectSolveReport& report, NormalEquations& system,
+                                         SolverStep& step);
     void run(ObjectWindow& window, bool standing, NormalEquations& system, SolverStep& step);
     void try_other_starts(const ObjectWindow& window, bool standing, NormalEquations& system, SolverStep& step);
     void keep_better(const ObjectWindow& window, bool standing, NormalEquations& system, SolverStep& step);
@@ -39,6 +43,7 @@ private:
     Calibration calibration_{};
     ObjectProblemOptions options_{};
     ObjectProblem problem_{};
+    LmOptions lm_options_{};
     LmReport lm_{};
     ObjectVariables moving_{};  // result of the moving hypothesis, while standing is tried
     ObjectVariables chosen_{};  // the best so far, while another start is tried

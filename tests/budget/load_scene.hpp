@@ -1,0 +1,29 @@
+// A load that fills every capacity: textured boxes driving to and fro before a textured wall, as dense as the image
+// allows, seen by a camera that moves to and fro. Up to 32 objects with more than 128 corners each.
+#ifndef SEMTRACK_TESTS_BUDGET_LOAD_SCENE_HPP
+#define SEMTRACK_TESTS_BUDGET_LOAD_SCENE_HPP
+
+#include <map>
+
+#include "board/scene_writer.hpp"
+#include "semtrack/hal/sources.hpp"
+
+namespace semtrack::budget {
+
+/// objects: 0 to kMaxObjects.
+[[nodiscard]] board::SceneWriter make_load_scene(int objects, int frames);
+
+/// The same boxes' features from outside: 128 on each, 512 of the background, in every frame. Images cannot fill all
+/// capacities at once: new corners keep 7 to 9 px apart, and 4608 of them do not find room beside what objects cover.
+class LoadFeatures final : public FeatureSource {
+public:
+    LoadFeatures(int objects, int frames);
+    SourceResult poll(std::int64_t time_us, ExternalFeatures& features) noexcept override;
+
+private:
+    std::map<std::int64_t, std::vector<ExternalFeature>> by_time_{};
+};
+
+}  // namespace semtrack::budget
+
+#endif

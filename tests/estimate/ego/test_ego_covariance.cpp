@@ -9,6 +9,7 @@
 #include "estimate/ego/drive_scene.hpp"
 #include "estimate/ego/ego_estimator.hpp"
 #include "math/cholesky6.hpp"
+#include "support/sweep.hpp"
 
 namespace semtrack {
 namespace {

@@ -142,9 +142,12 @@ guests() {
     guest_log uml tests/guest/run_uml.sh "$uml" tests/guest/uml_vcan.sh "$uml" build/host-release/bin/semtrack-sil "$drive"
     recorded "$uml/vcan/can.log" "$uml/vcan.dump"
     recorded "$uml/slow/can.log" "$uml/slow.dump"
+    # Images from files: the guest would take a second to render each, and lists have to come ten times a second.
+    build/host-release/bin/semtrack-sil render --scenario street --layout odometry --frames 100 --out "$uml/drive" \
+        >/dev/null || finish 1 "FAILED: rendering"
     step "guest: User Mode Linux, a serial adapter: error-passive, bus-off, full queue, interface down"
     guest_log uml-faults tests/guest/run_uml.sh "$uml" tests/guest/uml_faults.sh "$uml" \
-        build/host-release/bin/semtrack-sil build/host-release/bin/slcan_adapter
+        build/host-release/bin/semtrack-sil build/host-release/bin/slcan_adapter "$uml/drive"
     # Stall, bus-off and interface down may cut one list each; 1.5 s without a reader leave out eight lists or more.
     recorded --disturbed 3 8 "$uml/faults/can.log" "$uml/adapter.log"
 }

@@ -1,7 +1,7 @@
 #!/bin/sh
 # In User Mode Linux: semtrack-sil on a serial adapter's interface that is disturbed while it publishes. What arrives
 # must be frames of can.log in their order, and after each disturbance frames must arrive again.
-# Usage: uml_faults.sh WORK SEMTRACK_SIL ADAPTER
+# Usage: uml_faults.sh WORK SEMTRACK_SIL ADAPTER DRIVE
 set -u
 work=$1
 sil=$2
@@ -33,7 +33,7 @@ arrives() {
     echo "frames arrive: $1"
 }
 
-"$sil" replay --layout world --sequence avenue --detections labels --last 119 --no-progress \
+"$sil" replay --layout odometry --root "$4" --sequence 00 --detections "$4/detections/00.txt" --no-progress \
     --realtime --can "$interface" --can-dialect classic --out "$work/faults" &
 sender=$!
 arrives "at first"

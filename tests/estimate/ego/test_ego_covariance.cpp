@@ -75,7 +75,7 @@ void add_drive(const DriveOptions& options, Shares& s) {
 Shares shares(double noise_px, double disparity_sigma_px) {
     Shares s;
     Rng rng(5U);
-    for (int d = 0; d < kDrives; ++d) {
+    for (int d = 0; d < kDrives / kSweepShare; ++d) {
         DriveOptions options;
         options.seed = static_cast<std::uint32_t>(d + 1);
         options.noise_px = noise_px;

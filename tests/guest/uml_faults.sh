@@ -1,7 +1,7 @@
 #!/bin/sh
 # In User Mode Linux: semtrack-sil on a serial adapter's interface that is disturbed while it publishes. What arrives
 # must be frames of can.log in their order, and after each disturbance frames must arrive again.
-# Usage: uml_faults.sh WORK SEMTRACK_SIL ADAPTER
+# Usage: uml_faults.sh WORK SEMTRACK_SIL ADAPTER DRIVE
 set -u
 work=$1
 sil=$2
@@ -33,7 +33,7 @@ arrives() {
     echo "frames arrive: $1"
 }
 
-"$sil" replay --layout world --sequence street --detections labels --last 79 --no-progress \
+"$sil" replay --layout odometry --root "$4" --sequence 00 --detections "$4/detections/00.txt" --no-progress \
     --realtime --can "$interface" --can-dialect classic --out "$work/faults" &
 sender=$!
 arrives "at first"
@@ -41,13 +41,16 @@ echo passive >&3
 arrives "error-passive"
 echo active >&3
 arrives "error-active again"
-echo stall >&3 # the queue fills
-sleep 1
+echo stall >&3 # the queue fills; ten lists must not come later
+sleep 1.5
 echo resume >&3
 arrives "the adapter reads again"
 echo busoff >&3
 sleep 0.5
 echo active >&3
+echo down >&3 # slcan has no restart-ms: its controller is restarted with the interface
+sleep 0.2
+echo up >&3
 arrives "after bus-off"
 echo down >&3
 sleep 0.5

@@ -9,6 +9,7 @@
 #include "estimate/ego/drive_scene.hpp"
 #include "estimate/ego/ego_estimator.hpp"
 #include "math/cholesky6.hpp"
+#include "support/sweep.hpp"
 
 namespace semtrack {
 namespace {
@@ -74,7 +75,7 @@ void add_drive(const DriveOptions& options, Shares& s) {
 Shares shares(double noise_px, double disparity_sigma_px) {
     Shares s;
     Rng rng(5U);
-    for (int d = 0; d < kDrives; ++d) {
+    for (int d = 0; d < kDrives / kSweepShare; ++d) {
         DriveOptions options;
         options.seed = static_cast<std::uint32_t>(d + 1);
         options.noise_px = noise_px;

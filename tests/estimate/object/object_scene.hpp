@@ -91,7 +91,10 @@ private:
 
     Vec3 surface_point() {
         const Vec3 half = 0.5 * options_.size_m;
-        Vec3 x(between(rng_, -1.0, 1.0), between(rng_, -1.0, 1.0), between(rng_, -0.8, 0.8));
+        Vec3 x;  // one draw a statement: the order of arguments is the compiler's
+        x(2) = between(rng_, -0.8, 0.8);
+        x(1) = between(rng_, -1.0, 1.0);
+        x(0) = between(rng_, -1.0, 1.0);
         const int face = rng_.below(4);
         x(face / 2) = face % 2 == 0 ? 1.0 : -1.0;
         return x.cwiseProduct(half);

@@ -11,6 +11,7 @@
 #include "front/box/edge_planes.hpp"
 #include "front/box/infer_box.hpp"
 #include "support/frustum_boxes.hpp"
+#include "support/sweep.hpp"
 
 namespace semtrack {
 namespace {
@@ -213,7 +214,7 @@ int class_steps(const Viewpoint& a, const Viewpoint& b) {
 Ranks ranks_without_viewpoint(double noise_px, double limit_rad, bool along) {
     Rng rng(23);
     Ranks out;
-    for (int k = 0; k < 12000; ++k) {
+    for (int k = 0; k < 12000 / kSweepShare; ++k) {
         FrustumBox b;
         if (!random_box(rng, false, b)) {
             continue;
@@ -263,7 +264,7 @@ void show(const char* what, const Ranks& r) {
 TEST(BoxInference, WithoutViewpointTheTruePoseIsInTheListOverTheFrustum) {
     const Ranks any = ranks_without_viewpoint(0.0, 1e-6, false);
     show("exact edges, any heading", any);
-    EXPECT_GT(any.tried, 5000);
+    EXPECT_GT(any.tried, 5000 / kSweepShare);
     EXPECT_GT(any.found, 0.999 * any.tried);
     EXPECT_GT(any.first_four, 0.6 * any.tried);
     const Ranks along = ranks_without_viewpoint(0.0, 1e-6, true);
@@ -275,7 +276,7 @@ TEST(BoxInference, WithoutViewpointTheTruePoseIsInTheListOverTheFrustum) {
 TEST(BoxInference, WithoutViewpointAPixelOfNoiseLeavesTheTrueClassInTheList) {
     const Ranks any = ranks_without_viewpoint(1.0, 0.35, false);
     show("1 px of noise, any heading", any);
-    EXPECT_GT(any.tried, 5000);
+    EXPECT_GT(any.tried, 5000 / kSweepShare);
     EXPECT_GT(any.found, 0.93 * any.tried);
     EXPECT_LE(any.longest, kMaxBoxHypotheses);
     const Ranks along = ranks_without_viewpoint(1.0, 0.35, true);

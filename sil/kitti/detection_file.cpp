@@ -73,11 +73,6 @@ void tidy(std::vector<Detection>& list, int width, int height, DetectionCounters
     }
     std::stable_sort(kept.begin(), kept.end(),
                      [](const Detection& a, const Detection& b) { return a.score > b.score; });
-    const auto most = static_cast<std::size_t>(kMaxDetections);
-    if (kept.size() > most) {
-        counters.excess += static_cast<int>(kept.size() - most);
-        kept.resize(most);
-    }
     list = std::move(kept);
 }
 

@@ -16,9 +16,8 @@ struct DetectionCounters {
     int inverted{0};  ///< right <= left or bottom <= top
     int outside{0};   ///< no overlap with the image
     int doubled{0};   ///< same frame, class and box as an earlier row
-    int excess{0};    ///< beyond kMaxDetections of the frame; the highest scores are kept
     int clipped{0};   ///< kept, cut at the image border
-    [[nodiscard]] int dropped() const { return inverted + outside + doubled + excess; }
+    [[nodiscard]] int dropped() const { return inverted + outside + doubled; }
 };
 
 /// A frame without entry has no list; an empty vector says that nothing was seen.
@@ -34,7 +33,8 @@ struct Detections {
 [[nodiscard]] Detections read_detections(const std::filesystem::path& path, int width, int height);
 
 /// Drops and clips to [0, width-1] x [0, height-1] (the detections' camera has the processed pair's image size). The
-/// list is then sorted by falling score; equal ones keep the file's order.
+/// list is then sorted by falling score; equal ones keep the file's order. Of more than kMaxDetections the tracker gets
+/// the first and the number of the others (sil/sources.hpp).
 void tidy(std::vector<Detection>& list, int width, int height, DetectionCounters& counters);
 void tidy(std::vector<Detection>& list, int width, int height, int& dropped);
 

@@ -1,6 +1,10 @@
 // glibc's allocator under its own names stays what allocates; these count on the way.
 #include "sil/heap/counting_malloc.hpp"
 
+#include <sys/syscall.h>
+#include <sys/types.h>
+#include <unistd.h>
+
 #include <atomic>
 #include <cstddef>
 
@@ -38,6 +42,20 @@ void* realloc(void* old, std::size_t bytes) noexcept {
 void* aligned_alloc(std::size_t alignment, std::size_t bytes) noexcept {
     note();
     return __libc_memalign(alignment, bytes);
+}
+void* memalign(std::size_t alignment, std::size_t bytes) noexcept {
+    note();
+    return __libc_memalign(alignment, bytes);
+}
+int posix_memalign(void** out, std::size_t alignment, std::size_t bytes) noexcept {
+    note();
+    *out = __libc_memalign(alignment, bytes);
+    return *out == nullptr ? 12 : 0;  // ENOMEM
+}
+/// Of programs and libraries; the allocator's own do not pass here.
+void* mmap(void* at, std::size_t bytes, int protection, int flags, int file, off_t offset) noexcept {
+    note();
+    return reinterpret_cast<void*>(::syscall(SYS_mmap, at, bytes, protection, flags, file, offset));
 }
 }
 

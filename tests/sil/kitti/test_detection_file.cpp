@@ -79,16 +79,17 @@ TEST_F(DetectionFiles, BoxesAcrossTheBorderAreClipped) {
     EXPECT_EQ(d.dropped, 0);
 }
 
-TEST_F(DetectionFiles, AFullListKeepsTheHighestScores) {
+TEST_F(DetectionFiles, AnOverfullListIsWholeWithTheHighestScoresFirst) {
     std::string text;
     for (int i = 0; i < kMaxDetections + 3; ++i) {
         text += "5 Car " + std::to_string(0.001 * i) + " " + std::to_string(i) + " 10 " + std::to_string(i + 50) +
                 " 60 -1 -1\n";
     }
     const Detections d = read(text);
-    ASSERT_EQ(d.by_frame.at(5).size(), static_cast<std::size_t>(kMaxDetections));
-    EXPECT_EQ(d.counters.excess, 3);
-    EXPECT_EQ(d.by_frame.at(5).back().box.left, 3.0);
+    ASSERT_EQ(d.by_frame.at(5).size(), static_cast<std::size_t>(kMaxDetections) + 3U);
+    EXPECT_EQ(d.dropped, 0);
+    EXPECT_EQ(d.by_frame.at(5).front().box.left, kMaxDetections + 2.0);
+    EXPECT_EQ(d.by_frame.at(5).back().box.left, 0.0);
 }
 
 TEST_F(DetectionFiles, AListWhoseRowsAreAllDroppedIsEmpty) {

@@ -1,5 +1,6 @@
 /* Plugin of qemu-user: instructions that the emulated program executed from one function semtrack_count_NAME to the
  * next. A row "NAME instructions since the one before" goes to the plugin log (-d plugin -D FILE).
+ * A program without such functions (a bare board's image, under qemu-system) gives one row "all" at its end.
  * Debian packages no qemu-plugin.h: the calls used, of plugin API 1 (QEMU 7.2), are declared here. */
 #include <inttypes.h>
 #include <stddef.h>
@@ -14,6 +15,7 @@ enum qemu_plugin_op { QEMU_PLUGIN_INLINE_ADD_U64 };
 enum qemu_plugin_cb_flags { QEMU_PLUGIN_CB_NO_REGS };
 typedef void (*translated_cb)(qemu_plugin_id_t id, struct qemu_plugin_tb* tb);
 typedef void (*executed_cb)(unsigned int vcpu, void* data);
+typedef void (*exit_cb)(qemu_plugin_id_t id, void* data);
 size_t qemu_plugin_tb_n_insns(const struct qemu_plugin_tb* tb);
 struct qemu_plugin_insn* qemu_plugin_tb_get_insn(const struct qemu_plugin_tb* tb, size_t index);
 const char* qemu_plugin_insn_symbol(const struct qemu_plugin_insn* insn);
@@ -22,6 +24,7 @@ void qemu_plugin_register_vcpu_tb_exec_inline(struct qemu_plugin_tb* tb, enum qe
                                               uint64_t by);
 void qemu_plugin_register_vcpu_tb_exec_cb(struct qemu_plugin_tb* tb, executed_cb cb, enum qemu_plugin_cb_flags flags,
                                           void* data);
+void qemu_plugin_register_atexit_cb(qemu_plugin_id_t id, exit_cb cb, void* data);
 void qemu_plugin_outs(const char* text);
 
 __attribute__((visibility("default"))) int qemu_plugin_version = 1;
@@ -49,11 +52,20 @@ static void translated(qemu_plugin_id_t id, struct qemu_plugin_tb* tb) {
     }
 }
 
+static void at_exit(qemu_plugin_id_t id, void* data) {
+    (void)id;
+    (void)data;
+    if (before == 0) {
+        marked(0, (void*)"all");
+    }
+}
+
 __attribute__((visibility("default"))) int qemu_plugin_install(qemu_plugin_id_t id, const void* info, int argc,
                                                                char** argv) {
     (void)info;
     (void)argc;
     (void)argv;
     qemu_plugin_register_vcpu_tb_trans_cb(id, translated);
+    qemu_plugin_register_atexit_cb(id, at_exit, NULL);
     return 0;
 }

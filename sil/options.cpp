@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "sil/can_ids.hpp"
 #include "sil/sequence.hpp"
 
 namespace semtrack::sil {
@@ -67,6 +68,7 @@ void add_replay(CLI::App& app, ReplayOptions& o, Words& w) {
         ->check(CLI::Range(0.01, 10.0));
     app.add_option("--vehicle-motion", o.vehicle_motion, "FILE or simulated: the vehicle's own speed and yaw rate");
     app.add_option("--can-dialect", w.can_dialect)->check(CLI::IsMember({"fd", "classic"}));
+    add_can_id_options(app, o.can);
     CLI::Option* const can = app.add_option("--can", o.can_interface, "SocketCAN interface to send on");
     can->each([](const std::string& name) {
         if (name.empty()) {
@@ -189,7 +191,10 @@ void finish_replay(const Words& w, ReplayOptions& o) {
     if (o.opencv_extractor && o.config.matcher != MatcherKind::kOrb) {
         throw InputError("--extractor opencv: only with --matcher orb");
     }
-    o.dialect = w.can_dialect == "classic" ? CanDialect::kClassic : CanDialect::kFd;
+    o.can.dialect = w.can_dialect == "classic" ? CanDialect::kClassic : CanDialect::kFd;
+    if (const std::string complaint = complaint_about_ids(o.can); !complaint.empty()) {
+        throw InputError(complaint);
+    }
     o.progress = !w.no_progress;
 }
 

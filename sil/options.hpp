@@ -40,7 +40,7 @@ struct ReplayOptions {
     Config config{};
     std::filesystem::path mount;
     std::string vehicle_motion;  ///< none (empty), simulated or a file
-    CanDialect dialect{CanDialect::kFd};
+    CanConfig can{};
     std::string can_interface;  ///< empty: can.log only
     bool realtime{false};
     int workers{1};  ///< threads that solve objects

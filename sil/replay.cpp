@@ -114,8 +114,8 @@ public:
     Run(const ReplayOptions& options, Drive& drive, const DriveTruth& truth, const std::filesystem::path& dir)
         : options_(options),
           drive_(drive),
-          writers_(dir, drive.cameras, options.dialect, options.points),
-          can_(writers_.can_log(), options.can_interface, options.dialect),
+          writers_(dir, drive.cameras, options.can.dialect, options.points),
+          can_(writers_.can_log(), options.can_interface, options.can.dialect),
           trace_(timer_),
           stereo_(*drive.sequence, stereo_settings(options, drive.range), timer_),
           detections_(*drive.sequence, drive.detections.by_frame, drive.range.first, drive.range.last,
@@ -164,9 +164,7 @@ public:
         ports.features = simulator_ ? &*simulator_ : nullptr;
         ports.can = &can_;
         ports.observer = &timer_;
-        CanConfig can;
-        can.dialect = options.dialect;
-        cycle_->init(ports, can);
+        cycle_->init(ports, options.can);
     }
 
     void all_frames() {

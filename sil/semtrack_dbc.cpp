@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "sil/can_ids.hpp"
 #include "sil/dbc/dbc_text.hpp"
 
 int main(int argc, char** argv) {
@@ -9,8 +10,7 @@ int main(int argc, char** argv) {
     std::string dialect = "fd";
     semtrack::CanConfig config;
     app.add_option("--can-dialect", dialect, "fd or classic")->check(CLI::IsMember({"fd", "classic"}));
-    app.add_option("--base-id", config.base_id, "CAN id of the first message");
-    app.add_flag("--extended", config.extended, "29-bit ids");
+    semtrack::sil::add_can_id_options(app, config);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -21,10 +21,9 @@ int main(int argc, char** argv) {
         return 2;
     }
     config.dialect = dialect == "classic" ? semtrack::CanDialect::kClassic : semtrack::CanDialect::kFd;
-    const std::uint32_t highest = config.extended ? 0x1FFFFFFFU : 0x7FFU;
-    if (config.base_id > highest - 16U) {
-        (void)std::fprintf(stderr, "semtrack-dbc: --base-id %u: ids would not fit in %d bits\n", config.base_id,
-                           config.extended ? 29 : 11);
+    const std::string complaint = semtrack::sil::complaint_about_ids(config);
+    if (!complaint.empty()) {
+        (void)std::fprintf(stderr, "semtrack-dbc: %s\n", complaint.c_str());
         return 2;
     }
     (void)std::fputs(semtrack::sil::dbc_text(config).c_str(), stdout);

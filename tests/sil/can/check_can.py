@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The object list of a run as a receiver sees it who has the DBC alone. Usage: check_can.py SEMTRACK_SIL ROOT fd|classic
+"""The object list of a run as a receiver sees it who has the DBC alone. Usage: check_can.py SEMTRACK_SIL SEMTRACK_DBC ROOT fd|classic
 
 A replay's can.log, decoded by an independent library with the DBC, equals list.csv within half a bit; every CRC is
 recomputed; counters count; flags say which values lie outside their range. A planted fault of each kind must be found."""
@@ -11,7 +11,7 @@ import tempfile
 from can_files import load
 from list_check import check_values, lists_of, read_run
 
-SIL, ROOT, DIALECT = sys.argv[1:4]
+SIL, DBC, ROOT, DIALECT = sys.argv[1:5]
 FD = DIALECT == "fd"
 
 
@@ -56,6 +56,27 @@ def planted_values(table):
     yield "a list that is not in list.csv", table[:-1]
 
 
+def other_ids():
+    """A run with other ids, 29-bit ones too, by the DBC written for them."""
+    problems = []
+    for options in (["--base-id", "0x123"], ["--base-id", "0x18FF0000", "--extended"]):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([SIL, "replay", "--layout", "world", "--sequence", "street", "--last", "4", "--detections",
+                            "labels", "--can-dialect", DIALECT, *options, "--out", folder], check=True,
+                           stdout=subprocess.DEVNULL)
+            text = subprocess.run([DBC, "--can-dialect", DIALECT, *options], check=True, capture_output=True, text=True)
+            file = pathlib.Path(folder, "ids.dbc")
+            file.write_text(text.stdout)
+            log, table = read_run(folder)
+            lists, found = lists_of(log, load(file)[0], FD)
+        found += check_values(lists, table)[0]
+        digits = {len(row.split(" ")[2].split("#")[0]) for row in log.splitlines()}
+        if len(lists) != 5 or digits != {8 if "--extended" in options else 3}:
+            found.append(f"{len(lists)} lists, ids of {digits} digits")
+        problems += [f"{' '.join(options)}: {problem}" for problem in found]
+    return problems
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([SIL, "replay", "--layout", "world", "--sequence", "street", "--last", "24", "--detections",
@@ -67,6 +88,7 @@ def main():
     sent = sum(header["ObjectCount"].raw_value for _, header, _ in lists)
     if len(lists) != 25 or sent < 50:
         problems.append(f"{len(lists)} lists with {sent} objects: the run shows nothing")
+    problems += other_ids()
     planted = 0
     for what, rows in planted_frames(log.splitlines(), matrix):
         planted += 1

@@ -172,6 +172,9 @@ def bad_usage(tmp):
          names=("--image-size",))
     case("image size beyond the capacity", "--images", "none", "--ego", drive.sync / "poses.txt", "--image-size",
          "4000x4000", names=("--image-size",))
+    case("CAN ids beyond 11 bits", "--base-id", "0x7F5", names=("--base-id",))
+    case("no worker", "--workers", "0", names=("--workers",))
+    case("too many workers", "--workers", "9", names=("--workers",))
     case("camera below the road", "--camera-height", "-1", names=("--camera-height",))
     case("camera height that is no number", "--camera-height", "nan", names=("--camera-height",))
     case("simulated sensors of a recorded drive", "--vehicle-motion", "simulated", names=("--vehicle-motion",))

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <set>
 #include <thread>
@@ -23,8 +24,9 @@ public:
         ++runs[static_cast<std::size_t>(job)];
         ++of_worker[w];
         thread[w] = std::this_thread::get_id();
-        if (slow) {
-            std::this_thread::sleep_for(std::chrono::microseconds(200));
+        ++begun;
+        for (int ms = 0; begun < wait_for && ms < 20000; ++ms) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
         active[w] = false;
     }
@@ -33,7 +35,8 @@ public:
     std::array<std::thread::id, kMaxWorkers> thread{};
     std::array<std::atomic<bool>, kMaxWorkers> active{};
     std::atomic<int> overlaps{0};
-    bool slow{false};
+    std::atomic<int> begun{0};
+    int wait_for{0};  ///< a job ends when so many have begun
 };
 
 TEST(ThreadExecutor, RunsEachJobOnceInThousandsOfRoundsOfAnySize) {
@@ -53,11 +56,11 @@ TEST(ThreadExecutor, RunsEachJobOnceInThousandsOfRoundsOfAnySize) {
     }
 }
 
-TEST(ThreadExecutor, SpreadsLongJobsOverItsThreads) {
+TEST(ThreadExecutor, WorksOnAsManyJobsAtOnceAsItHasWorkers) {
     ThreadExecutor executor;
     ASSERT_TRUE(executor.start(4));
     CountingJobs jobs;
-    jobs.slow = true;
+    jobs.wait_for = 4;  // only four workers at once get past it
     executor.run(jobs, kJobs);
     std::set<std::thread::id> threads;
     for (int w = 0; w < 4; ++w) {

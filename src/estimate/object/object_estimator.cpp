@@ -131,6 +131,11 @@ void ObjectEstimator::try_other_starts(const ObjectWindow& window, bool standing
     }
     const ObjectVariables start = problem_.variables();
     const bool blind = problem_.landmarks() == 0;
+    other_ = start;
+    if (!standing && landmark_start(window, other_)) {
+        keep_better(window, standing, system, step);
+        return;
+    }
     const bool young = window.frames.size() <= kYoungFrames;
     const double size2 = size_prior_cost(size_prior(window.object_class), start.size_m);
     const bool contradicted = heading_cost(window, start) > kDoubtfulViews;

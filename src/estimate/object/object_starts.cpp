@@ -1,8 +1,10 @@
 #include "estimate/object/object_starts.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "math/so3.hpp"
+#include "math/sort.hpp"
 #include "math/trig.hpp"
 #include "model/box_geometry.hpp"
 #include "model/class_prior.hpp"
@@ -19,6 +21,8 @@ constexpr double kReverseSpeed = 0.5;    // m/s
 constexpr double kOutsideSigma_m = 0.2;  // mirrors and bumpers, and the label's own tightness
 constexpr double kOutsideMost2 = 4.0;    // a point that is not on the object counts as two sigmas
 constexpr int kIndependentPoints = 3;
+constexpr int kLeastLandmarks = 4;
+constexpr double kBesideBox_m = 1.0;  // further than any mirror or error of a size
 constexpr double kMaxTurn_rad = 1.2;        // to a twin
 constexpr double kBesideMiddle_rad = 0.35;  // of a class of two faces, which spans 1.4 rad
 constexpr double kPathSpeed = 1.5;          // m/s: slower ones have no direction
@@ -83,6 +87,34 @@ Path path_of_boxes(const ObjectWindow& window, const Calibration& calibration, d
         }
     }
     return path;
+}
+
+/// Half of what the box takes along a horizontal direction at `off` to its heading.
+double half_extent(const Vec3& size_m, double off) {
+    const SinCos d = sin_cos(off);
+    return 0.5 * (size_m(0) * std::fabs(d.cos) + size_m(1) * std::fabs(d.sin));
+}
+
+/// Middle of the seen landmarks' distances along a direction from an origin; false: too few.
+bool middle_landmark(const ObjectWindow& window, const ObjectVariables& x, const Vec3& origin_l, const Vec3& along,
+                     double& middle_m) {
+    const ObjectState& now = x.state[static_cast<std::size_t>(window.frames.size() - 1)];
+    const Mat3 R_l_o = rot_z(now.theta);
+    std::array<double, static_cast<std::size_t>(kMaxObjectFeatures)> distance_m{};
+    int n = 0;
+    for (int s = 0; s < kMaxObjectFeatures; ++s) {
+        const auto slot = static_cast<std::size_t>(s);
+        if (window.landmarks[slot].valid && window.newest().features[slot].valid) {
+            distance_m[static_cast<std::size_t>(n)] = along.dot(now.p + R_l_o * x.f_o[slot] - origin_l);
+            ++n;
+        }
+    }
+    if (n < kLeastLandmarks) {
+        return false;
+    }
+    heap_sort(distance_m.data(), n);
+    middle_m = distance_m[static_cast<std::size_t>(n / 2)];
+    return true;
 }
 
 /// Observation angle of the middle of a class: rotation about z from the line of sight to the heading.
@@ -168,6 +200,46 @@ bool twin_start(const ObjectWindow& window, bool mirrored, ObjectVariables& x) {
     }
     for (Vec3& f : x.f_o) {
         f = R_back * f;
+    }
+    return true;
+}
+
+bool landmark_start(const ObjectWindow& window, ObjectVariables& x) {
+    const int last = window.frames.size() - 1;
+    const ObjectState before = x.state[static_cast<std::size_t>(last)];
+    const Vec3 camera_l = window.newest().T_c_l.inverse().t;
+    const double sight = atan2_rad(before.p(1) - camera_l(1), before.p(0) - camera_l(0));
+    const SinCos u = sin_cos(sight);
+    const Vec3 along(u.cos, u.sin, 0.0);
+    const double centre_m = along.dot(before.p - camera_l);
+    double middle_m = 0.0;
+    if (!middle_landmark(window, x, camera_l, along, middle_m) || !(middle_m > 0.0) || !(centre_m > 0.0)) {
+        return false;
+    }
+    const double beside = std::fabs(middle_m - centre_m) - half_extent(x.size_m, before.theta - sight);
+    if (beside < kBesideBox_m) {
+        return false;
+    }
+    // What is seen of a body is its near half.
+    const double nearer = (middle_m + 0.5 * half_extent(window.prior_size_m, before.theta - sight)) / centre_m;
+    for (int k = 0; k <= last; ++k) {
+        ObjectState& s = x.state[static_cast<std::size_t>(k)];
+        const Vec3 camera = window.frames[k].T_c_l.inverse().t;
+        s.p = camera + nearer * (s.p - camera);
+    }
+    const ObjectState& now = x.state[static_cast<std::size_t>(last)];
+    const double time_s = -seconds_to_newest(window, 0);
+    if (time_s > 0.0) {
+        const SinCos h = sin_cos(now.theta);
+        const double v = (h.cos * (now.p(0) - x.state[0].p(0)) + h.sin * (now.p(1) - x.state[0].p(1))) / time_s;
+        for (int k = 0; k <= last; ++k) {
+            x.state[static_cast<std::size_t>(k)].v = v;
+        }
+    }
+    x.size_m = window.prior_size_m;
+    const Vec3 shift = rot_z(-now.theta) * (before.p - now.p);
+    for (Vec3& f : x.f_o) {
+        f += shift;
     }
     return true;
 }

@@ -24,6 +24,12 @@ inline constexpr double kTurningMost = 1.0;  // half of a frame that contradicts
 /// Landmarks stay where they are in the world. false: the twin shows other faces, the detector's class would have told.
 [[nodiscard]] bool twin_start(const ObjectWindow& window, bool mirrored, ObjectVariables& x);
 
+/// The present solution x moved along the line of sight to where its landmarks are, with the size that was known before:
+/// boxes whose bottom something hid put an object too far away, and its own stereo points tell. Heading and image
+/// position stay, landmarks too in the world. false: fewer than four landmarks are seen, or their middle lies within
+/// 1 m of the box.
+[[nodiscard]] bool landmark_start(const ObjectWindow& window, ObjectVariables& x);
+
 /// Standing for so many frames: its heading has been published, and is kept.
 inline constexpr int kStoodLong = 5;
 

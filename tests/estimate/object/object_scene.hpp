@@ -54,6 +54,7 @@ public:
 
     [[nodiscard]] const Calibration& calibration() const { return calibration_; }
     [[nodiscard]] ObjectWindow& window() { return *window_; }
+    [[nodiscard]] const ObjectWindow& window() const { return *window_; }
     [[nodiscard]] const ObjectState& truth() const { return truth_; }
 
     /// A new frame in the window: a prediction (the start is off by a metre and a fifth of a radian) and measurements.

@@ -51,14 +51,18 @@ set_up() {
     install_packages "$missing" || finish 1 "FAILED: apt-get could not install the packages above"
 }
 
-# build PRESET [TARGET...]
+# build PRESET [-DOPTION=VALUE...] [TARGET...]
 build() {
-    local preset=$1
+    local preset=$1 options=()
     shift
+    while [[ ${1:-} == -D* ]]; do
+        options+=("$1")
+        shift
+    done
     step "configure and build: $preset"
     mkdir -p build
     local log=build/$preset.log
-    if ! cmake --preset "$preset" >"$log" 2>&1; then
+    if ! cmake --preset "$preset" "${options[@]}" >"$log" 2>&1; then
         tail -n 30 "$log"
         finish 1 "FAILED: configure $preset (whole log: $log)"
     fi

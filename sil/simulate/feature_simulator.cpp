@@ -165,30 +165,9 @@ bool FeatureSimulator::add(int frame, const Box& box, int number, const Pose& T_
             return false;
         }
     }
-    ExternalFeature f;
-    f.id = mixed(own, point.generation * 2U + 1U);
-    f.stereo = true;
-    const double d = calibration_.left.fx * calibration_.baseline_m / x_c(2);
-    f.u = static_cast<float>(left(0) + noise_px_ * chance.normal());
-    f.v = static_cast<float>(left(1) + noise_px_ * chance.normal());
-    f.u_right =
-        static_cast<float>(left(0) - d - (calibration_.left.cx - calibration_.right.cx) + noise_px_ * chance.normal());
-    f.sigma_px = static_cast<float>(noise_px_);
-    out.push_back(f);
+    const std::uint32_t id = mixed(own, point.generation * 2U + 1U);
+    out.push_back(noisy_stereo_feature(calibration_, id, x_c, noise_px_, chance));
     return true;
-}
-
-SourceResult FeatureSimulator::poll(std::int64_t time_us, ExternalFeatures& features) noexcept {
-    const auto found = by_time_.find(time_us);
-    if (found == by_time_.end()) {
-        return SourceResult::kNone;
-    }
-    for (const ExternalFeature& f : found->second) {
-        if (!features.try_push_back(f)) {
-            break;
-        }
-    }
-    return SourceResult::kOk;
 }
 
 }  // namespace semtrack::sil

@@ -13,17 +13,16 @@
 #include <vector>
 
 #include "math/pose.hpp"
-#include "semtrack/hal/sources.hpp"
 #include "sil/sequence.hpp"
+#include "sil/simulate/timed_features.hpp"
 
 namespace semtrack::sil {
 
-class FeatureSimulator final : public FeatureSource {
+class FeatureSimulator final : public TimedFeatures {
 public:
     /// T_f_c0: ego poses by frame, for points on the background. noise_px: of u, v, u_right each.
     FeatureSimulator(const Sequence& sequence, const std::map<int, RigidTransform>& T_f_c0, int first, int last,
                      double noise_px);
-    [[nodiscard]] SourceResult poll(std::int64_t time_us, ExternalFeatures& features) noexcept override;
 
 private:
     struct Box {  // a labelled object in one frame
@@ -49,7 +48,6 @@ private:
     Calibration calibration_{};
     double noise_px_;
     std::map<std::pair<int, int>, Point> points_;  // object id, number
-    std::map<std::int64_t, std::vector<ExternalFeature>> by_time_;
 };
 
 }  // namespace semtrack::sil

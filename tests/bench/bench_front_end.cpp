@@ -13,6 +13,7 @@
 #include "front/ransac/reject.hpp"
 #include "math/rng.hpp"
 #include "math/so3.hpp"
+#include "support/aligned_pair.hpp"
 
 namespace semtrack::bench {
 namespace {
@@ -22,16 +23,6 @@ constexpr int kHeight = 375;
 constexpr int kFrames = 12;
 constexpr int kObjects = 9;
 constexpr int kRuns = 5;
-
-Calibration calibration() {
-    Calibration c;
-    c.width = kWidth;
-    c.height = kHeight;
-    c.left = {721.5, 721.5, 609.6, 172.9};
-    c.right = c.detection = c.left;
-    c.baseline_m = 0.54;
-    return c;
-}
 
 std::vector<std::uint8_t> noise(Rng& rng) {
     std::vector<std::uint8_t> pixels(static_cast<std::size_t>(kWidth) * kHeight);
@@ -82,7 +73,7 @@ public:
     }
 
 private:
-    Calibration calibration_ = calibration();
+    Calibration calibration_ = aligned_pair();
     OwnerPriors priors_{};
     MaskItems items_{};
     MaskResults results_{};

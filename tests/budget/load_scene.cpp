@@ -7,6 +7,7 @@
 #include "math/rng.hpp"
 #include "math/trig.hpp"
 #include "model/box_geometry.hpp"
+#include "support/aligned_pair.hpp"
 #include "support/plane_scene.hpp"
 
 namespace semtrack::budget {
@@ -34,16 +35,6 @@ struct Box {
     double texels_per_m{0};
     std::uint32_t seed{0};
 };
-
-Calibration calibration() {
-    Calibration c;
-    c.width = kWidth;
-    c.height = kHeight;
-    c.left = {721.5, 721.5, 609.6, 172.9};
-    c.right = c.detection = c.left;
-    c.baseline_m = 0.54;
-    return c;
-}
 
 Mat3 heading(double theta) {
     Mat3 R;
@@ -138,7 +129,7 @@ private:
 }  // namespace
 
 board::SceneWriter make_load_scene(int objects, int frames) {
-    const Calibration c = calibration();
+    const Calibration c = aligned_pair();
     board::SceneWriter scene(c, frames);
     for (int frame = 0; frame < frames; ++frame) {
         const std::int64_t time_us = frame * kFrame_us;
@@ -188,51 +179,29 @@ Vec3 background_point(const Calibration& c, Rng& rng) {
     return bearing(c.left, 20.0 + (kWidth - 40.0) * rng.uniform(), v) * (18.0 + 27.0 * rng.uniform());
 }
 
-ExternalFeature feature(const Calibration& c, int id, const Vec3& x_c, Rng& noise) {
-    ExternalFeature f;
-    f.id = static_cast<std::uint32_t>(id);
-    f.stereo = true;
-    const Vec2 at = project(c.left, x_c);
-    f.u = static_cast<float>(at(0) + kNoise_px * noise.normal());
-    f.v = static_cast<float>(at(1) + kNoise_px * noise.normal());
-    f.u_right = static_cast<float>(right_column(c, at(0), x_c(2)) + kNoise_px * noise.normal());
-    f.sigma_px = static_cast<float>(kNoise_px);
-    return f;
-}
-
 }  // namespace
 
 LoadFeatures::LoadFeatures(int objects, int frames) {
-    const Calibration c = calibration();
+    const Calibration c = aligned_pair();
     for (int frame = 0; frame < frames; ++frame) {
         const double t_s = 1e-6 * static_cast<double>(frame * kFrame_us);
         std::vector<ExternalFeature>& out = by_time_[frame * kFrame_us];
         Rng noise(static_cast<std::uint32_t>(frame) + 1U);
         Rng places(77);
+        const auto feature = [&](int id, const Vec3& x_w) {
+            return sil::noisy_stereo_feature(c, static_cast<std::uint32_t>(id), x_w - eye(t_s), kNoise_px, noise);
+        };
         for (int i = 0; i < kMaxBackgroundFeatures; ++i) {
-            out.push_back(feature(c, i, background_point(c, places) - eye(t_s), noise));
+            out.push_back(feature(i, background_point(c, places)));
         }
         for (int k = 0; k < objects; ++k) {
             const Box box = object(c, k, t_s);
             for (int i = 0; i < kMaxObjectFeatures; ++i) {
                 const Vec3 x_w = box.T_w_o * point_on_rear(i, places);
-                out.push_back(feature(c, 1000 * (k + 1) + i, x_w - eye(t_s), noise));
+                out.push_back(feature(1000 * (k + 1) + i, x_w));
             }
         }
     }
-}
-
-SourceResult LoadFeatures::poll(std::int64_t time_us, ExternalFeatures& features) noexcept {
-    const auto found = by_time_.find(time_us);
-    if (found == by_time_.end()) {
-        return SourceResult::kNone;
-    }
-    for (const ExternalFeature& f : found->second) {
-        if (!features.try_push_back(f)) {
-            break;
-        }
-    }
-    return SourceResult::kOk;
 }
 
 }  // namespace semtrack::budget

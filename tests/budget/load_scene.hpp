@@ -3,10 +3,8 @@
 #ifndef SEMTRACK_TESTS_BUDGET_LOAD_SCENE_HPP
 #define SEMTRACK_TESTS_BUDGET_LOAD_SCENE_HPP
 
-#include <map>
-
 #include "board/scene_writer.hpp"
-#include "semtrack/hal/sources.hpp"
+#include "sil/simulate/timed_features.hpp"
 
 namespace semtrack::budget {
 
@@ -15,13 +13,9 @@ namespace semtrack::budget {
 
 /// The same boxes' features from outside: 128 on each, 512 of the background, in every frame. Images cannot fill all
 /// capacities at once: new corners keep 7 to 9 px apart, and 4608 of them do not find room beside what objects cover.
-class LoadFeatures final : public FeatureSource {
+class LoadFeatures final : public sil::TimedFeatures {
 public:
     LoadFeatures(int objects, int frames);
-    SourceResult poll(std::int64_t time_us, ExternalFeatures& features) noexcept override;
-
-private:
-    std::map<std::int64_t, std::vector<ExternalFeature>> by_time_{};
 };
 
 }  // namespace semtrack::budget

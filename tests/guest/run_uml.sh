@@ -22,7 +22,7 @@ mount -t tmpfs tmp /run
 mount -t tmpfs tmp /dev/shm 2>/dev/null
 mkdir -p /dev/pts && mount -t devpts pts /dev/pts
 exec >>'$work/output' 2>&1 </dev/null
-for module in can-dev can can-raw vcan slcan; do
+for module in can-dev can can-raw vcan slcan sch_tbf; do
     insmod "\$(find '$modules' -name "\$module.ko")" || echo "insmod \$module failed"
 done
 ip link set lo up

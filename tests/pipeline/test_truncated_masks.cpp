@@ -10,6 +10,7 @@
 #include "model/box_geometry.hpp"
 #include "semtrack/hal/feature_extractor.hpp"
 #include "semtrack/tracker.hpp"
+#include "support/aligned_pair.hpp"
 
 namespace semtrack {
 namespace {
@@ -32,12 +33,6 @@ public:
 class TruncatedMasks : public testing::Test {
 protected:
     void SetUp() override {
-        calibration_.width = kWidth;
-        calibration_.height = kHeight;
-        calibration_.left = {721.5, 721.5, 609.6, 172.9};
-        calibration_.right = calibration_.left;
-        calibration_.detection = calibration_.left;
-        calibration_.baseline_m = 0.54;
         Config config;
         config.matcher = MatcherKind::kOrb;
         ASSERT_EQ(tracker_->init(config, calibration_, &recorder_), Status::kOk);
@@ -73,7 +68,7 @@ protected:
         return static_cast<double>(owned) / ((bottom - top + 1) * (right - left + 1));
     }
 
-    Calibration calibration_{};
+    Calibration calibration_ = aligned_pair();
     MaskRecorder recorder_{};
     std::vector<std::uint8_t> pixels_ = std::vector<std::uint8_t>(static_cast<std::size_t>(kWidth) * kHeight, 90);
     StaticVector<DetectionList, kMaxDetectionLists> lists_{};

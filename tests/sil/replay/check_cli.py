@@ -1,102 +1,20 @@
 #!/usr/bin/env python3
-"""The program as a user runs it. Usage: check_cli.py PROGRAM bad_input|bad_usage|results|evaluate|repeat
+"""The program as a user runs it. Usage: check_cli.py PROGRAM bad_input|bad_usage|results|repeat
 
 Base data is a rendered street of a few frames, in KITTI's layouts."""
 import json
 import math
-import os
 import pathlib
 import shutil
-import subprocess
 import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from checks import check, finish, refused  # noqa: E402
+from program import FRAMES, Drive, contents, edit, grey_png, raw_base, replace_word, run, same_but_timing  # noqa: E402
 
-PROGRAM = sys.argv[1]
-FRAMES = 4
 FILES = ["can.log", "ego.csv", "ego.txt", "frames.txt", "list.csv", "metrics.json", "objects.txt", "states.csv",
          "timing.csv"]
-
-def run(*arguments, env=None):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
-                          env={**os.environ, **(env or {})}, timeout=250, check=False)
-
-
-def render(layout, folder, frames=FRAMES):
-    result = run("render", "--scenario", "street", "--layout", layout, "--out", folder, "--frames", frames)
-    if result.returncode != 0:
-        sys.exit(f"render failed: {result.stderr}")
-    words = result.stdout.split()
-    return words[words.index("--sequence") + 1], pathlib.Path(words[words.index("--detections") + 1])
-
-
-def contents(folder):
-    return {p.name: p.read_bytes() for p in sorted(folder.iterdir()) if p.is_file()}
-
-
-def same_but_timing(a, b, what):
-    for name in sorted(set(a) | set(b)):
-        if name != "timing.csv":
-            check(a.get(name) == b.get(name), f"{what}: {name} differs")
-
-
-class Drive:
-    """A fresh copy of the rendered raw drive."""
-
-    def __init__(self, base, folder):
-        self.folder = folder
-        shutil.copytree(base["root"], folder)
-        self.id = base["id"]
-        self.date = folder / self.id[:10]
-        self.sync = self.date / (self.id + "_sync")
-        self.detections = folder / base["detections"].relative_to(base["root"])
-        self.calibration = self.date / "calib_cam_to_cam.txt"
-        self.times = self.sync / "image_00" / "timestamps.txt"
-
-    def left(self, frame):
-        return self.sync / "image_00" / "data" / f"{frame:010d}.png"
-
-    def right(self, frame):
-        return self.sync / "image_01" / "data" / f"{frame:010d}.png"
-
-    def replay(self, out, *more, env=None, detections=None):
-        return run("replay", "--layout", "raw", "--root", self.folder, "--sequence", self.id, "--detections",
-                   detections or self.detections, "--out", out, *more, env=env)
-
-
-def raw_base(tmp):
-    root = tmp / "base"
-    drive_id, detections = render("raw", root)
-    return {"root": root, "id": drive_id, "detections": detections}
-
-
-def edit(path, line, change):
-    """Changes line `line` (from 1)."""
-    rows = path.read_text().split("\n")
-    rows[line - 1] = change(rows[line - 1])
-    path.write_text("\n".join(rows))
-
-
-def grey_png(width, height):
-    import struct
-    import zlib
-
-    def chunk(kind, data):
-        body = kind + data
-        return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
-    rows = b"".join(b"\0" + bytes(width) for _ in range(height))
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)) +
-            chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
-
-
-def replace_word(index, word):
-    def change(row):
-        words = row.split()
-        words[index] = word
-        return " ".join(words)
-    return change
 
 
 def bad_input(tmp):
@@ -275,85 +193,6 @@ def results(tmp):
         check(metrics["run"]["detection_lists_too_late"] == 0, f"delay {delay}: no list is too late")
 
 
-def evaluate(tmp):
-    root = tmp / "root"
-    results_dir = tmp / "results"
-    (root / "poses").mkdir(parents=True)
-    results_dir.mkdir()
-
-    def pose(z, x=0.0):
-        return f"1 0 0 {x!r} 0 1 0 0 0 0 1 {z!r}\n"
-
-    def put(truth, ego, frames):
-        (root / "poses" / "00.txt").write_text("".join(truth))
-        (results_dir / "ego.txt").write_text("".join(ego))
-        (results_dir / "frames.txt").write_text("".join(f"{n}\n" for n in frames))
-
-    def go(*more):
-        return run("evaluate", "--results", results_dir, "--layout", "odometry", "--root", root, "--sequence", "00",
-                   *more)
-
-    def metrics(what):
-        result = go()
-        check(result.returncode == 0, f"{what}: {result.stderr}")
-        return json.loads((results_dir / "metrics.json").read_text(), parse_constant=lambda c: sys.exit(f"{what}: {c}"))
-
-    straight = [pose(float(n)) for n in range(101)]
-    put(straight, [pose(1.01 * n) for n in range(101)], range(101))
-    m = metrics("scale 1.01")
-    check(abs(m["ate_rmse_m"] - 0.29155) < 5e-6 and abs(m["rpe_trans_mean_m"] - 0.01) < 1e-9, f"scale 1.01: {m}")
-    put([pose(0.0)] * 30, [pose(0.0)] * 30, range(30))
-    m = metrics("standing")
-    check(m["ate_rmse_m"] == 0 and m["rpe_trans_mean_m"] == 0 and m["segment_trans_percent"] is None, "standing")
-    turned = [f"0 0 1 {5 + n!r} 0 1 0 7 -1 0 0 {0.01 * n * n!r}\n" for n in range(61)]
-    own = [f"1 0 0 {-0.01 * n * n!r} 0 1 0 0 0 0 1 {float(n)!r}\n" for n in range(61)]
-    put(turned, own, range(61))
-    m = metrics("turned and moved")
-    check(m["ate_rmse_m"] < 1e-9, f"turned and moved: {m['ate_rmse_m']}")
-    check(m["segment_trans_percent"] is None and m["segment_rot_deg_per_100m"] is None, "60 m have no segments")
-    put(straight, [pose(3.0)], [3])
-    m = metrics("one row")
-    check(m["ate_rmse_m"] == 0 and m["rpe_trans_mean_m"] is None, f"one row: {m}")
-    kept = [n for n in range(101) if not 40 <= n < 50]
-    put(straight, [pose(float(n)) for n in kept], kept)
-    m = metrics("gap")
-    check(m["ate_rmse_m"] < 1e-9 and m["rpe_trans_mean_m"] < 1e-9 and m["ego_frames_compared"] == 91, f"gap: {m}")
-
-    put(straight, [pose(float(n), 0.003 * (n % 2)) for n in range(101)], range(101))
-    others = []
-    for name, rhythm in (("b.txt", 2), ("c.txt", 4)):
-        (tmp / name).write_text("".join(pose(float(n), 0.01 * ((n // rhythm) % 2)) for n in range(101)))
-        others += ["--other", tmp / name]
-    result = go(*others)
-    agreement = json.loads((results_dir / "metrics.json").read_text())["agreement"]
-    check(result.returncode == 0 and len(agreement["rpe_trans_mean_m"]) == 2, f"two other odometries: {result.stderr}")
-    check(abs(agreement["own_error_rms_m"] - 0.003) < 1e-3, f"own part of the error: {agreement}")
-    (tmp / "b.txt").write_text("".join(straight[:100]))
-    refused(go(*others), "another odometry with a row too few", "b.txt")
-
-    before = contents(results_dir)
-    for what, frames in (("doubled", [0, 1, 1]), ("falling", [0, 2, 1])):
-        put(straight, straight[:3], frames)
-        refused(go(), what, "frames.txt:3")
-    put(straight, straight[:3], [0, 1])
-    refused(go(), "more poses than frames", "ego.txt")
-    put(straight, straight[:2], [0, 1, 2])
-    refused(go(), "fewer poses than frames", "ego.txt")
-    check((results_dir / "metrics.json").read_bytes() == before["metrics.json"], "a refusal left metrics.json alone")
-    put(straight, straight[:2], [0, 1])
-    good = "0 1 Car 0 0 0 100 100 150 140 1.5 1.6 3.9 1 1.6 20 0 0.9 0\n"
-    (results_dir / "objects.txt").write_text(good + good)
-    refused(go(), "the same frame and id twice", "objects.txt:2")
-    (results_dir / "objects.txt").write_text(good.replace("3.9", "-3.9"))
-    refused(go(), "negative length", "objects.txt:1")
-    (results_dir / "objects.txt").write_text(good)
-    check(go().returncode == 0, "a good objects.txt")
-    (results_dir / "frames.txt").unlink()
-    refused(go(), "no frames.txt", "frames.txt")
-    refused(run("evaluate", "--results", tmp / "nowhere", "--layout", "odometry", "--root", root,
-                "--sequence", "00"), "no results", "nowhere")
-
-
 def repeat(tmp):
     # Twice the same bytes, whatever the surroundings say.
     base = raw_base(tmp)
@@ -393,7 +232,7 @@ def repeat(tmp):
 
 def main():
     with tempfile.TemporaryDirectory() as folder:
-        {"bad_input": bad_input, "bad_usage": bad_usage, "results": results, "evaluate": evaluate,
+        {"bad_input": bad_input, "bad_usage": bad_usage, "results": results,
          "repeat": repeat}[sys.argv[2]](pathlib.Path(folder))
     return finish()
 

@@ -7,6 +7,7 @@
 
 #include "math/camera.hpp"
 #include "sil/kitti/label_detections.hpp"
+#include "support/aligned_pair.hpp"
 
 namespace semtrack::sil {
 namespace {
@@ -15,11 +16,7 @@ namespace {
 class OneCar final : public Sequence {
 public:
     explicit OneCar(double z, bool hidden = false) {
-        cameras_.calibration.width = 1242;
-        cameras_.calibration.height = 375;
-        cameras_.calibration.left = PinholeCamera{721.5, 721.5, 609.6, 172.9};
-        cameras_.calibration.right = cameras_.calibration.detection = cameras_.calibration.left;
-        cameras_.calibration.baseline_m = 0.54;
+        cameras_.calibration = aligned_pair();
         for (int frame = 0; frame < 10; ++frame) {
             Label l;
             l.frame = frame;

@@ -28,6 +28,7 @@ public:
     }
 
 protected:
+    ~TimedFeatures() = default;  // never deleted by this base
     std::map<std::int64_t, std::vector<ExternalFeature>> by_time_{};
 };
 

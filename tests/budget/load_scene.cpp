@@ -161,6 +161,20 @@ board::SceneWriter make_load_scene(int objects, int frames) {
     return scene;
 }
 
+std::vector<LoadBox> load_boxes(int objects, int frame) {
+    const Calibration c = aligned_pair();
+    const double t_s = 1e-6 * static_cast<double>(frame * kFrame_us);
+    constexpr double kStep_s = 1e-3;
+    std::vector<LoadBox> out;
+    for (int k = 0; k < objects; ++k) {
+        const Box box = object(c, k, t_s);
+        const Vec3 p_c = box.T_w_o.t - eye(t_s);
+        const Vec3 step = object(c, k, t_s + kStep_s).T_w_o.t - box.T_w_o.t;
+        out.push_back({p_c(2), -p_c(0), step.dot(box.T_w_o.R.col(0)) / kStep_s});
+    }
+    return out;
+}
+
 namespace {
 
 constexpr double kNoise_px = 0.3;

@@ -3,6 +3,8 @@
 #ifndef SEMTRACK_TESTS_BUDGET_LOAD_SCENE_HPP
 #define SEMTRACK_TESTS_BUDGET_LOAD_SCENE_HPP
 
+#include <vector>
+
 #include "board/scene_writer.hpp"
 #include "sil/simulate/timed_features.hpp"
 
@@ -17,6 +19,14 @@ class LoadFeatures final : public sil::TimedFeatures {
 public:
     LoadFeatures(int objects, int frames);
 };
+
+/// One box as the camera sees it: its middle ahead and to the left, its speed along its heading.
+struct LoadBox {
+    double ahead_m{0};
+    double left_m{0};
+    double speed_mps{0};
+};
+[[nodiscard]] std::vector<LoadBox> load_boxes(int objects, int frame);
 
 }  // namespace semtrack::budget
 

@@ -1,8 +1,10 @@
 // usage: semtrack-time-run SCENE BACKGROUND_FEATURES OBJECT_FEATURES RUNS SKIPPED_FRAMES [GIVEN_OBJECTS]
 // GIVEN_OBJECTS: the scene is that of semtrack-budget-scene load, its features come from outside (LoadFeatures).
 // Milliseconds of processor time a frame and stage: each frame's minimum over the runs; of those the median and the
-// maximum. Rows "name median maximum", and how full the capacities were: "name median minimum".
+// maximum. Rows "name median maximum", and how full the capacities were: "name median minimum". With given features
+// also the boxes' errors, of position in percent of the distance and of speed, and how many boxes have no object.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -77,6 +79,47 @@ void print_loads(const std::vector<budget::Load>& loads) {
     row("least_on_an_object", &budget::Load::least_on_object);
 }
 
+/// How far the published objects are off the boxes, over all frames of a run.
+class Errors {
+public:
+    void add(const Output& output, const std::vector<budget::LoadBox>& boxes) {
+        for (const budget::LoadBox& box : boxes) {
+            const double range_m = std::hypot(box.ahead_m, box.left_m);
+            double nearest_m = 1.0;
+            double speed_mps = 0.0;
+            for (const TrackedObject& object : output.objects) {
+                const double off_m = std::hypot(object.position_v[0] - box.ahead_m, object.position_v[1] - box.left_m);
+                if (off_m < nearest_m) {
+                    nearest_m = off_m;
+                    speed_mps = std::fabs(object.speed - box.speed_mps);
+                }
+            }
+            if (nearest_m < 1.0) {
+                position_percent_.push_back(100.0 * nearest_m / range_m);
+                speed_mps_.push_back(speed_mps);
+            } else {
+                ++missing_;
+            }
+        }
+    }
+    void print() {
+        if (position_percent_.empty()) {
+            return;
+        }
+        const auto row = [](const char* name, std::vector<double>& values) {
+            (void)std::printf("%s %.3f %.3f\n", name, median(values), *std::max_element(values.begin(), values.end()));
+        };
+        row("position_error_percent", position_percent_);
+        row("speed_error_mps", speed_mps_);
+        (void)std::printf("boxes_without_object %d %zu\n", missing_, position_percent_.size() + std::size_t(missing_));
+    }
+
+private:
+    std::vector<double> position_percent_{};
+    std::vector<double> speed_mps_{};
+    int missing_{0};
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -97,6 +140,7 @@ int main(int argc, char** argv) {
     }
     std::vector<std::array<double, kStages + 1>> least;
     std::vector<budget::Load> loads;
+    Errors errors;
     for (int k = 0; k < std::atoi(argv[4]); ++k) {
         Stopwatch watch;
         const auto run = std::make_unique<budget::SceneRun>(std::vector<std::uint8_t>(bytes.begin(), bytes.end()),
@@ -109,6 +153,9 @@ int main(int argc, char** argv) {
             }
             const auto now = watch.frame();
             loads.push_back(run->load());
+            if (given != nullptr && k == 0 && frame >= skipped) {
+                errors.add(run->output(), budget::load_boxes(std::atoi(argv[6]), static_cast<int>(frame)));
+            }
             if (least.size() <= frame) {
                 least.push_back(now);
             }
@@ -132,5 +179,6 @@ int main(int argc, char** argv) {
     }
     print_parts(least);
     print_loads(loads);
+    errors.print();
     return 0;
 }

@@ -129,22 +129,30 @@ TEST_F(ObjectEstimatorTest, PedestrianWalksAcrossWithoutAHeading) {
 }
 
 TEST_F(ObjectEstimatorTest, FeaturesOnTheWallBehindAreCulled) {
+    constexpr int kSeeds = 16;
     ObjectSceneOptions o = driving(6.0, 0.0);
     o.outliers = 6;
-    int culled = 0;
-    scene_ = std::make_unique<ObjectScene>(o);
-    Config config;
-    config.cues = cues(true);
-    estimator_->init(scene_->calibration(), config);
-    for (int k = 0; k < 20; ++k) {
-        scene_->next();
-        report_ = estimator_->solve(scene_->window(), *system_, *step_);
-        for (const std::int16_t slot : report_.culled) {
-            culled += slot < o.outliers ? 1 : 0;
+    double squares = 0.0;
+    for (int seed = 1; seed <= kSeeds; ++seed) {
+        o.seed = static_cast<std::uint32_t>(seed);
+        int culled = 0;
+        scene_ = std::make_unique<ObjectScene>(o);
+        Config config;
+        config.cues = cues(true);
+        estimator_->init(scene_->calibration(), config);
+        for (int k = 0; k < 20; ++k) {
+            scene_->next();
+            report_ = estimator_->solve(scene_->window(), *system_, *step_);
+            for (const std::int16_t slot : report_.culled) {
+                culled += slot < o.outliers ? 1 : 0;
+            }
         }
+        EXPECT_GE(culled, o.outliers) << "seed " << seed;
+        const double off_mps = scene_->window().newest().state.v - 6.0;
+        squares += off_mps * off_mps;
     }
-    EXPECT_GE(culled, 6);
-    EXPECT_LT(std::fabs(scene_->window().newest().state.v - 6.0), 0.5);
+    // The matcher finds them again at once, and in its first two frames such a point is not told from the car's own.
+    EXPECT_LT(std::sqrt(squares / kSeeds), 1.0);  // measured: 0.82; never culled: 1.66
 }
 
 TEST_F(ObjectEstimatorTest, SizeMovesFromThePriorTowardsTheTruthAndItsSigmaShrinks) {

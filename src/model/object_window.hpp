@@ -75,6 +75,7 @@ struct ObjectWindow {
     Mat3 prior_size_covariance{Mat3::Identity()};
     std::uint32_t prior_frame{0};       ///< newest frame that the prior has used
     int stood{0};                       ///< frames that it was found standing so far
+    int contradicted{0};                ///< frames with a box, one after another, that moving explains better
     double heading_information{0};      ///< what frames so far said of its heading while it stood, 1 / rad^2
     bool standing{false};               ///< the standing hypothesis explains the window as well
     Mat6 covariance{Mat6::Identity()};  ///< of the newest state (p, theta, v, delta)

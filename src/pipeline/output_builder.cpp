@@ -32,6 +32,9 @@ MovementState movement(const Track& track, double yaw_v) {
     if (track.window.standing || std::fabs(v) < kMovingSpeed) {
         return track.age < kYoung_frames ? MovementState::kUnknown : MovementState::kStanding;
     }
+    if (v * v < track.window.covariance(4, 4)) {
+        return MovementState::kUnknown;  // a speed within its own sigma of none
+    }
     if (v < 0.0) {
         return MovementState::kReversing;
     }

@@ -345,7 +345,6 @@ void TrackerCore::start_track(const DetectionList& list, int item, std::uint32_t
     window.prior_size_m = prior.size_m;
     window.prior_size_covariance = size_prior(detection.object_class).covariance;
     window.prior_frame = frame;
-    window.stood = 0;
     window.size_covariance = prior.size_sigma_m.cwiseProduct(prior.size_sigma_m).asDiagonal();
     const Vec3 p_c = T_c_l * x.p;
     const double depth = kStartDepthSigma * std::sqrt(p_c.dot(p_c));

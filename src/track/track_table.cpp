@@ -84,6 +84,7 @@ Track* TrackTable::start(ObjectClass object_class, double score, int& slot) {
     track.window.object_class = object_class;
     track.window.frames.clear();
     track.window.standing = false;
+    track.window.stood = track.window.contradicted = 0;
     track.window.heading_information = 0.0;
     for (ObjectLandmark& landmark : track.window.landmarks) {
         landmark.valid = false;

@@ -26,11 +26,11 @@ protected:
         ego_.sigma_speed = 0.4;
         ego_.sigma_yaw_rate = 0.01;
     }
-    TrackedObject describe(double x, double y, double yaw) {
+    TrackedObject describe(double x, double y, double yaw, double v = 10.0) {
         ObjectState& state = track_->window.newest().state;
         state.p = Vec3(x, y, -0.9);
         state.theta = yaw;
-        state.v = 10.0;
+        state.v = v;
         TrackedObject o;
         EXPECT_TRUE(describe_track(*track_, 0, ego_, PlaneScene{}.calibration(), o));
         return o;
@@ -52,6 +52,18 @@ TEST_F(OutputBuilderTest, ACrossingCarCarriesTheEgosYawRateByItsDistance) {
     EXPECT_NEAR(o.sigma_speed, std::sqrt(0.09 + 0.16), 1e-12);  // 0.01 rad/s x 40 m; nothing of the ego's speed
     EXPECT_NEAR(o.sigma_velocity_v[0], std::sqrt(0.04 + 0.16 + 0.05 * 0.05), 1e-12);
     EXPECT_NEAR(o.sigma_velocity_v[1], std::sqrt(0.09 + 0.16), 1e-12);
+}
+
+TEST_F(OutputBuilderTest, MovementIsUnknownWhileTheSpeedIsWithinItsSigma) {
+    track_->age = 20;
+    EXPECT_EQ(describe(20.0, 0.0, 0.0).movement, MovementState::kMoving);
+    EXPECT_EQ(describe(20.0, 0.0, 0.0, -10.0).movement, MovementState::kReversing);
+    EXPECT_EQ(describe(20.0, 0.0, kPi).movement, MovementState::kOncoming);
+    EXPECT_EQ(describe(20.0, 0.0, 0.0, 0.4).movement, MovementState::kStanding);
+    track_->window.covariance(4, 4) = 7.0 * 7.0;
+    EXPECT_EQ(describe(20.0, 0.0, 0.0, 6.0).movement, MovementState::kUnknown);
+    EXPECT_EQ(describe(20.0, 0.0, 0.0, -6.0).movement, MovementState::kUnknown);
+    EXPECT_EQ(describe(20.0, 0.0, 0.0, 8.0).movement, MovementState::kMoving);
 }
 
 TEST_F(OutputBuilderTest, YawRateCarriesTheEgosYawRate) {

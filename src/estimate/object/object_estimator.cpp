@@ -45,18 +45,22 @@ void ObjectEstimator::run(ObjectWindow& window, bool standing, NormalEquations& 
 // Moving or standing, whatever explains the window better. true: standing; the problem holds the chosen solution.
 bool ObjectEstimator::choose_hypothesis(ObjectWindow& window, ObjectSolveReport& report, NormalEquations& system,
                                         SolverStep& step) {
+    const bool rests = window.stood >= kStoodLong && std::fabs(window.newest().state.v) < kRestSpeed;
     run(window, false, system, step);
     const LmReport moving = lm_;
     moving_ = problem_.variables();
     const int last = window.frames.size() - 1;
-    const double most = window.standing ? kStandingMaxSpeedKeep : kStandingMaxSpeed;
-    const bool slow = std::fabs(moving_.state[static_cast<std::size_t>(last)].v) < most;
-    if (!options_.cues.motion || !slow || last < 1) {
+    const double speed = std::fabs(moving_.state[static_cast<std::size_t>(last)].v);
+    const bool slow = speed < (window.standing ? kStandingMaxSpeedKeep : kStandingMaxSpeed);
+    const bool starts = rests && speed > kRestSpeed;
+    if (!options_.cues.motion || last < 1 || !(slow || starts)) {
         return false;
     }
     run(window, true, system, step);
     report.standing_gain = 2.0 * (lm_.final_cost - moving.final_cost);
-    if (report.standing_gain < (window.standing ? kStandingGainKeep : kStandingGain)) {
+    const bool explained = slow && report.standing_gain < (window.standing ? kStandingGainKeep : kStandingGain);
+    window.contradicted = explained || !starts ? 0 : window.contradicted + (window.newest().box.valid ? 1 : 0);
+    if (explained || (starts && window.contradicted < kStartFrames)) {
         return true;
     }
     options_.standing = options_.hold_heading = false;

@@ -56,6 +56,7 @@ public:
     [[nodiscard]] ObjectWindow& window() { return *window_; }
     [[nodiscard]] const ObjectWindow& window() const { return *window_; }
     [[nodiscard]] const ObjectState& truth() const { return truth_; }
+    void drive_on(double speed) { truth_.v = speed; }
 
     /// A new frame in the window: a prediction (the start is off by a metre and a fifth of a radian) and measurements.
     void next() {

@@ -83,6 +83,36 @@ TEST_F(ObjectEstimatorTest, ParkedCarStandsAndStaysInItsPlace) {
     EXPECT_LT(e.heading_rad, 0.1);
 }
 
+// Without boxes its features may be those of a car that passes.
+TEST_F(ObjectEstimatorTest, ParkedCarDoesNotStartToMoveUnseen) {
+    ObjectSceneOptions o;
+    o.start.p = Vec3(25.0, 4.0, -0.9);
+    (void)follow(o, 15, cues(true));
+    ASSERT_TRUE(scene_->window().standing);
+    scene_->drive_on(6.0);
+    for (int k = 1; k <= 8; ++k) {
+        scene_->next();
+        scene_->window().newest().box.valid = false;
+        report_ = estimator_->solve(scene_->window(), *system_, *step_);
+        EXPECT_LE(std::fabs(scene_->window().newest().state.v), 1.0) << k;
+    }
+}
+
+TEST_F(ObjectEstimatorTest, ParkedCarThatDrivesOffIsSeenToMoveWithinHalfASecond) {
+    ObjectSceneOptions o;
+    o.start.p = Vec3(25.0, 4.0, -0.9);
+    (void)follow(o, 15, cues(true));
+    ASSERT_TRUE(scene_->window().standing);
+    scene_->drive_on(4.0);
+    for (int k = 0; k < 10; ++k) {
+        scene_->next();
+        report_ = estimator_->solve(scene_->window(), *system_, *step_);
+        const double v = scene_->window().newest().state.v;
+        EXPECT_TRUE(k < 5 || v > 1.0) << k << ": " << v;
+    }
+    EXPECT_NEAR(scene_->window().newest().state.v, 4.0, 0.8);
+}
+
 TEST_F(ObjectEstimatorTest, SpeedOfALeadingCarComesFromItsFeatures) {
     const ObjectErrors with = follow(driving(6.0, 0.0), 30, cues(true));
     EXPECT_LT(with.speed, 0.15);

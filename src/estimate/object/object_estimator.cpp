@@ -45,7 +45,8 @@ void ObjectEstimator::run(ObjectWindow& window, bool standing, NormalEquations& 
 // Moving or standing, whatever explains the window better. true: standing; the problem holds the chosen solution.
 bool ObjectEstimator::choose_hypothesis(ObjectWindow& window, ObjectSolveReport& report, NormalEquations& system,
                                         SolverStep& step) {
-    const bool rests = window.stood >= kStoodLong && std::fabs(window.newest().state.v) < kRestSpeed;
+    const bool rests = class_prior(window.object_class).has_heading && window.stood >= kStoodLong &&
+                       std::fabs(window.newest().state.v) < kRestSpeed;
     run(window, false, system, step);
     const LmReport moving = lm_;
     moving_ = problem_.variables();

@@ -51,7 +51,7 @@ inline constexpr double kStandingGain = 6.0;
 inline constexpr double kStandingGainKeep = 16.0;
 /// A faster object is not taken for standing whatever the costs say.
 inline constexpr double kStandingMaxSpeed = 2.5;
-/// What has stood starts to move once so many frames with a box say so: as it leaves the image, features of what is
+/// A vehicle that has stood starts to move once so many frames with a box say so: as it leaves the image, features of what is
 /// behind or beside it would make it dart off. Slower than a walk it may move as it likes: that is how a car whose place
 /// was wrong comes to the right one.
 inline constexpr int kStartFrames = 3;

@@ -116,7 +116,7 @@ struct TrackedObject {
     int slot{0};                      ///< owner number minus one; stable while the track lives
     ObjectClass object_class{ObjectClass::kCar};
     TrackStatus status{TrackStatus::kNew};
-    MovementState movement{MovementState::kUnknown};
+    MovementState movement{MovementState::kUnknown};  ///< unknown: too young, or a speed within its sigma
     double existence{0};              ///< probability, 0..1
     double score{0};                  ///< ranks the objects, 0..1, lower when coasting
     int age{0};                       ///< frames since its first detection

@@ -87,8 +87,8 @@ def check_backing(what, out, path):
     backing = [f for f, place in enumerate(path) if place[3] < -1.4]
     slow = [f for f in backing[3:] if rows[f]["speed"] > -0.7]
     check(len(backing) > 15 and not slow, f"{what}: speeds while it backs out: {[rows[f]['speed'] for f in backing]}")
-    movement = [row["Movement"] for row in table(out, "list.csv") if row["object"]]
-    states = [m for i, m in enumerate(movement) if (i == 0 or m != movement[i - 1]) and m != "0"]  # 0: not known yet
+    movement = [row["Movement"] for row in table(out, "list.csv") if row["object"] and row["Movement"] != "0"]  # known
+    states = [m for i, m in enumerate(movement) if i == 0 or m != movement[i - 1]]
     # 1 standing, 4 reversing, 1 standing, then 2 moving or 3 oncoming
     check(states[:3] == ["1", "4", "1"] and states[3:] in (["2"], ["3"]), f"{what}: states of movement {states}")
 

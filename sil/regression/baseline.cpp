@@ -5,10 +5,10 @@
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "sil/kitti/drive_files.hpp"
 #include "sil/metrics/number_text.hpp"
+#include "sil/regression/json.hpp"
 #include "sil/report/text_output.hpp"
 
 namespace semtrack::sil {
@@ -16,7 +16,6 @@ namespace semtrack::sil {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kRows = "rows.txt";
 constexpr const char* kMetrics = "metrics.json";

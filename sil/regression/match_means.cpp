@@ -6,10 +6,9 @@
 
 #include "sil/kitti/text_file.hpp"
 #include "sil/metrics/object_rows.hpp"
+#include "sil/regression/json.hpp"
 
 namespace semtrack::sil {
-
-using Json = nlohmann::ordered_json;
 
 Json match_means(const std::filesystem::path& ego_csv) {
     const TextFile file(ego_csv, false, ',');

@@ -11,6 +11,7 @@
 #include "sil/regression/baseline.hpp"
 #include "sil/regression/child_process.hpp"
 #include "sil/regression/frame_times.hpp"
+#include "sil/regression/json.hpp"
 #include "sil/regression/match_means.hpp"
 #include "sil/regression/verdict.hpp"
 #include "sil/report/progress.hpp"
@@ -21,7 +22,6 @@ namespace semtrack::sil {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 Json read_metrics(const fs::path& path) {

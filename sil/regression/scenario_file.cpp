@@ -2,10 +2,10 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "sil/kitti/drive_paths.hpp"
+#include "sil/regression/json.hpp"
 #include "sil/sequence.hpp"
 
 namespace semtrack::sil {
@@ -13,7 +13,6 @@ namespace semtrack::sil {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 /// One file's reader: every complaint names the file and the place.
 constexpr int kMaxRepeat = 100;

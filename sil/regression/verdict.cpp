@@ -3,12 +3,11 @@
 #include <algorithm>
 
 #include "sil/metrics/number_text.hpp"
+#include "sil/regression/json.hpp"
 
 namespace semtrack::sil {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::optional<double> value_of(const Json& metrics, const std::string& metric) {
     try {

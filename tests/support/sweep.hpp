@@ -1,4 +1,5 @@
-// How many cases of a sweep run: all on the host, a share where each costs 15 to 18 times as much (emulated targets).
+// How many cases of a sweep run: all on the host, a share where each costs 15 to 18 times as much (emulated
+// targets, the debug build).
 #ifndef SEMTRACK_TESTS_SUPPORT_SWEEP_HPP
 #define SEMTRACK_TESTS_SUPPORT_SWEEP_HPP
 

@@ -14,6 +14,10 @@ endif()
 # Every target that computes with floating point: the same bits with every compiler and on every target.
 add_library(semtrack_determinism INTERFACE)
 target_compile_options(semtrack_determinism INTERFACE -ffp-contract=off -fno-fast-math -fno-unsafe-math-optimizations)
+# g++ 12 makes vfmaddsub of neighbouring sums and differences in spite of -ffp-contract=off (-O2 -march=x86-64-v3).
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|i[3-6]86)$")
+  target_compile_options(semtrack_determinism INTERFACE -mno-fma)
+endif()
 target_link_libraries(semtrack_determinism INTERFACE semtrack_warnings)
 
 # The core: no exceptions, no RTTI, no thread-safe statics (there are none).

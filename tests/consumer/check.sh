@@ -37,6 +37,17 @@ cmake --build "$work/my build"
 # The consumer's objects stand before the archive, as in most link lines.
 ninja -C "$work/my build" -t commands consumer | grep -E 'consumer.cpp.o .*libsemtrack\.a'
 "$work/my build/receiving"
+# The library's own code rounds after each operation, whatever the consumer's flags allow.
+if [ "$way" = subdirectory ] && [ "${flags%-mfma}" != "$flags" ]; then
+    fused='\sv?fn?m(add|sub)'
+    echo 'double f(double a, double b, double c) { return a * b + c; }' >"$work/fused.cpp"
+    "$compiler" -O2 -mfma -ffp-contract=fast -c "$work/fused.cpp" -o "$work/fused.o"
+    objdump -d "$work/fused.o" | grep -Eq "$fused" || { echo "a planted fused operation is not seen"; exit 1; }
+    find "$work/my build" -name 'libsemtrack*.a' | grep .
+    if find "$work/my build" -name 'libsemtrack*.a' -exec objdump -d {} + | grep -E "$fused"; then
+        exit 1
+    fi
+fi
 
 scene="$work/scene.bin"
 "$build/bin/semtrack-board-scene" "$scene"

@@ -33,8 +33,8 @@ protected:
 };
 
 /// What both cameras see of point x_c, with normal noise on u, v and u_right each.
-[[nodiscard]] inline ExternalFeature noisy_stereo_feature(const Calibration& calibration, std::uint32_t id, const Vec3& x_c,
-                                                          double noise_px, Rng& chance) {
+[[nodiscard]] inline ExternalFeature noisy_stereo_feature(const Calibration& calibration, std::uint32_t id,
+                                                          const Vec3& x_c, double noise_px, Rng& chance) {
     ExternalFeature f;
     f.id = id;
     f.stereo = true;

@@ -4,8 +4,8 @@ namespace semtrack::sil::world {
 
 namespace {
 
-// Where the machine has them: integer products of four lanes take one instruction, not six. The same bits: integers, and
-// floats whose operations are written one by one.
+// Where the machine has them: integer products of four lanes take one instruction, not six. The same bits: integers,
+// and floats whose operations are written one by one.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define SEMTRACK_WIDER __attribute__((target_clones("sse4.1", "default")))

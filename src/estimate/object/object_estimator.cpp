@@ -42,7 +42,8 @@ void ObjectEstimator::run(ObjectWindow& window, bool standing, NormalEquations& 
     lm_ = levenberg_marquardt(problem_, lm_options_, system, step);
 }
 
-// Moving or standing, whatever explains the window better. true: standing; the problem holds the chosen solution.
+// Moving or standing, whatever explains the window better; a vehicle that has stood needs several frames to start.
+// true: standing; the problem holds the chosen solution.
 bool ObjectEstimator::choose_hypothesis(ObjectWindow& window, ObjectSolveReport& report, NormalEquations& system,
                                         SolverStep& step) {
     const bool rests = class_prior(window.object_class).has_heading && window.stood >= kStoodLong &&

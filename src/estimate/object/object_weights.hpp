@@ -51,12 +51,12 @@ inline constexpr double kStandingGain = 6.0;
 inline constexpr double kStandingGainKeep = 16.0;
 /// A faster object is not taken for standing whatever the costs say.
 inline constexpr double kStandingMaxSpeed = 2.5;
-/// A vehicle that has stood starts to move once so many frames with a box say so: as it leaves the image, features of what is
-/// behind or beside it would make it dart off. Slower than a walk it may move as it likes: that is how a car whose place
-/// was wrong comes to the right one.
+inline constexpr double kStandingMaxSpeedKeep = 5.0;  // one box cut by a nearer car is a speed of 3 m/s at 30 m
+/// A vehicle that has stood starts to move once so many frames with a box say so: as it leaves the image, features of
+/// what is behind or beside it would make it dart off. Slower than a walk it may move as it likes: that is how a car
+/// whose place was wrong comes to the right one.
 inline constexpr int kStartFrames = 3;
 inline constexpr double kRestSpeed = 1.0;  // m/s
-inline constexpr double kStandingMaxSpeedKeep = 5.0;  // one box cut by a nearer car is a speed of 3 m/s at 30 m
 
 }  // namespace semtrack
 
